@@ -1,0 +1,13 @@
+# How every target of the project is compiled; never part of what the installed library asks of its users.
+add_library(raytracer_flags INTERFACE)
+target_compile_options(raytracer_flags INTERFACE
+  -Wall -Wextra -Wshadow -Wconversion
+  $<$<BOOL:${RAYTRACER_WERROR}>:-Werror>
+  $<$<BOOL:${RAYTRACER_NATIVE}>:-march=native>
+  # Nobody reads errno after a maths function, and no maths here traps; both keep loops from being vectorised.
+  -fno-math-errno -fno-trapping-math)
+if(RAYTRACER_SANITIZE)
+  target_compile_options(raytracer_flags INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(raytracer_flags INTERFACE -fsanitize=address,undefined)
+endif()

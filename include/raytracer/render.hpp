@@ -1,0 +1,44 @@
+// From a scene to a picture.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "raytracer/image.hpp"
+#include "raytracer/scene.hpp"
+
+namespace raytracer {
+
+/// How one picture is made of a scene.
+struct RenderSettings {
+  int width = 960, height = 540;  ///< pixels
+  int samples = 1;                ///< rays per pixel; one goes through the pixel's centre
+  int bounces = 8;                ///< reflections followed, black after
+  int threads = 0;                ///< 0: all the machine has
+  std::uint32_t seed = 0;         ///< another seed, other sample points
+};
+
+/// The scene at a time in seconds. The render asks for one time after another and keeps at most one alive.
+using SceneAt = std::function<std::shared_ptr<const Scene>(double time)>;
+
+/// Told of what happens while a picture is made. The functions are called from any of the render's threads, one
+/// at a time.
+class RenderObserver {
+ public:
+  virtual ~RenderObserver() = default;
+  /// `done` of `total` tiles are finished. Return false to stop: render() then throws Error (kInterrupted).
+  virtual bool on_progress(std::uint64_t done, std::uint64_t total) = 0;
+};
+
+/// What a render did, for those who ask.
+struct RenderStatistics {
+  std::uint64_t rays = 0;  ///< camera, shadow and reflected rays
+};
+
+/// Renders the scene at `time`. The picture is a pure function of scene and settings: the same bytes for any
+/// number of threads. `observer` may be null.
+Image render(const SceneAt& scene_at, double time, const RenderSettings& settings,
+             RenderObserver* observer = nullptr, RenderStatistics* statistics = nullptr);
+
+}  // namespace raytracer

@@ -1,0 +1,22 @@
+// The commands, a file each. Every function returns the exit code; what goes wrong is thrown as Error.
+#pragma once
+
+#include <string>
+
+#include "cli/options.hpp"
+
+namespace raytracer::cli {
+
+int run_render(const Options& options);
+int run_check(const Options& options);
+int run_help(const Options& options);
+
+/// The page behind --help, and what packagers install.
+std::string help_page();
+std::string man_page();
+std::string completions(const std::string& shell);
+
+/// The scene that the command line names; its messages are printed to standard error.
+LoadedScene load_and_report(const Options& options);
+
+}  // namespace raytracer::cli

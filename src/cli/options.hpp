@@ -1,0 +1,58 @@
+// The command line: one row per command and per option. Parsing, --help, the man page and the shells' completions all
+// read these rows.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "raytracer/scene_file.hpp"
+
+namespace raytracer::cli {
+
+/// What the command line asks for.
+struct Options {
+  std::vector<std::string> operands;  ///< what is no option: the scene, or a topic of help
+  std::string output;                 ///< empty: from the scene's name
+  LoadOptions load;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+  bool wants_help = false, wants_version = false;
+  bool wants_man_page = false;
+  std::string completions_for;  ///< a shell
+};
+
+enum CommandBit : std::uint8_t { kRender = 1, kCheck = 2, kHelp = 4 };
+
+struct CommandRow {
+  std::string_view name;
+  CommandBit bit;
+  std::string_view operands;  ///< as usage shows them
+  std::string_view help;
+  int (*run)(const Options& options);  ///< returns the exit code
+};
+
+struct OptionRow {
+  std::string_view name;   ///< with its dashes
+  std::string_view alias;  ///< a short one, or empty
+  std::string_view value;  ///< what stands behind it, or empty for a switch
+  std::uint8_t commands;   ///< CommandBits
+  bool hidden;             ///< for packagers: not in --help
+  std::string_view help;
+  void (*apply)(Options& options, const std::string& value);  ///< throws Error (kUsage)
+};
+
+std::span<const CommandRow> all_commands();
+std::span<const OptionRow> all_options();
+
+/// The command that the first argument names, or `render`, with its options. Throws Error (kUsage).
+struct ParsedCommandLine {
+  const CommandRow* command = nullptr;
+  Options options;
+};
+ParsedCommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace raytracer::cli

@@ -1,0 +1,40 @@
+#include "raytracer/scene.hpp"
+
+#include <utility>
+
+#include "raytracer/error.hpp"
+#include "scene/accelerator.hpp"
+#include "scene/pixel_color.hpp"
+
+namespace raytracer {
+
+Scene::Scene(SceneDescription description) : description_(std::move(description)) {
+  if (description_.material_of.size() != description_.shapes.size()) {
+    throw Error(ErrorKind::kUsage, "a scene needs one material index per shape");
+  }
+  for (const std::uint32_t index : description_.material_of) {
+    if (index >= description_.materials.size()) throw Error(ErrorKind::kUsage, "a shape's material does not exist");
+  }
+  accelerator_ = std::make_unique<Accelerator>(description_.shapes);
+}
+
+Scene::~Scene() = default;
+
+bool Scene::is_hit(const Ray3f& ray, Hit& hit) const { return accelerator_->is_hit(ray, hit); }
+
+bool Scene::is_occluded(const Ray3f& ray) const { return accelerator_->is_occluded(ray); }
+
+SurfacePoint Scene::surface_at(const Ray3f& ray, const Hit& hit) const {
+  return description_.shapes[hit.shape]->surface_at(ray, hit);
+}
+
+const Material& Scene::material_of(const Hit& hit) const {
+  return description_.materials[description_.material_of[hit.shape]];
+}
+
+Color3f Scene::get_pixel_color(const Ray3f& ray, int bounces_left) const {
+  std::uint64_t rays = 0;
+  return raytracer::get_pixel_color(*this, ray, bounces_left, rays);
+}
+
+}  // namespace raytracer

@@ -1,0 +1,78 @@
+#include "scene_file/diagnostics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace raytracer::scene_file {
+namespace {
+
+Diagnostic make_diagnostic(Severity severity, const Place& place, std::string message,
+                           std::string suggestion) {
+  Diagnostic d;
+  d.severity = severity;
+  d.message = std::move(message);
+  d.suggestion = std::move(suggestion);
+  d.file = place.source->name();
+  const LineColumn begin = place.source->locate(place.span.begin);
+  const LineColumn end = place.source->locate(place.span.end);
+  d.line = begin.line;
+  d.column = begin.column;
+  d.end_line = end.line;
+  d.end_column = end.column;
+  d.source_line = std::string(place.source->line_at(place.span.begin));
+  return d;
+}
+
+// The lexer, the parser and the builder find mistakes in three passes; people read a file from the top. Files keep the
+// order in which they were first spoken of, and what concerns the scene as a whole comes last.
+void sort_by_place(std::vector<Diagnostic>& messages) {
+  std::map<std::string, std::size_t> file_order;
+  for (const Diagnostic& d : messages) file_order.try_emplace(d.file, file_order.size());
+  const auto key = [&](const Diagnostic& d) {
+    return std::tuple(d.line == 0, file_order[d.file], d.line, d.column);
+  };
+  std::ranges::stable_sort(messages, [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+}
+
+}  // namespace
+
+void Diagnostics::error(const Place& place, std::string message, std::string suggestion,
+                        const std::vector<Note>& notes) {
+  if (++errors_ > kMostErrors) return;
+  Diagnostic d = make_diagnostic(Severity::kError, place, std::move(message), std::move(suggestion));
+  for (const Note& note : notes) {
+    d.notes.push_back(make_diagnostic(Severity::kError, note.place, note.message, {}));
+  }
+  messages_.push_back(std::move(d));
+}
+
+void Diagnostics::warning(const Place& place, std::string message, std::string suggestion) {
+  messages_.push_back(
+      make_diagnostic(Severity::kWarning, place, std::move(message), std::move(suggestion)));
+}
+
+void Diagnostics::warning(const std::string& file, std::string message, std::string suggestion) {
+  Diagnostic d;
+  d.severity = Severity::kWarning;
+  d.file = file;
+  d.message = std::move(message);
+  d.suggestion = std::move(suggestion);
+  messages_.push_back(std::move(d));
+}
+
+std::vector<Diagnostic> Diagnostics::take() {
+  sort_by_place(messages_);
+  if (errors_ > kMostErrors) {
+    Diagnostic more;
+    more.file = messages_.back().file;
+    more.message = fmt::format("and {} more errors", errors_ - kMostErrors);
+    messages_.push_back(std::move(more));
+  }
+  return std::exchange(messages_, {});
+}
+
+}  // namespace raytracer::scene_file

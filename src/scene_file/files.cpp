@@ -1,0 +1,157 @@
+#include "scene_file/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "raytracer/error.hpp"
+#include "scene_file/parser.hpp"
+
+namespace raytracer::scene_file {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A file that is closed on every way out.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (descriptor_ > STDERR_FILENO) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+std::string canonical(const std::string& path) {
+  std::error_code ignored;
+  return fs::weakly_canonical(path.empty() ? "." : path, ignored).string();
+}
+
+}  // namespace
+
+std::string read_text(const std::string& path) {
+  const std::string name = path == "-" ? "standard input" : fmt::format("'{}'", path);
+  const auto fail = [&](const std::string& reason) -> Error {
+    return {ErrorKind::kFile, fmt::format("can't read {}: {}", name, reason)};
+  };
+  const OpenFile file(path);
+  if (file.descriptor() < 0) throw fail(std::strerror(errno));
+  struct stat status {};
+  if (::fstat(file.descriptor(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) throw fail("it is a folder");
+    if (S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) > kLargestText) {
+      throw fail("it is larger than 1 GiB");
+    }
+  }
+  std::string text;
+  if (S_ISREG(status.st_mode)) text.reserve(static_cast<std::size_t>(status.st_size) + 1);
+  std::size_t size = 0;
+  while (true) {
+    constexpr std::size_t kChunk = std::size_t{1} << 18U;
+    text.resize(size + kChunk);
+    const ssize_t got = ::read(file.descriptor(), text.data() + size, kChunk);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw fail(std::strerror(errno));
+    if (got == 0) break;
+    // Text holds no zero bytes; /dev/zero and pictures are found out here, not after a gigabyte.
+    if (std::memchr(text.data() + size, 0, static_cast<std::size_t>(got)) != nullptr) {
+      throw fail("it is not a text file (it contains zero bytes)");
+    }
+    size += static_cast<std::size_t>(got);
+    if (size > kLargestText) throw fail("it is larger than 1 GiB");
+  }
+  text.resize(size);
+  return text;
+}
+
+Files::Files(const std::string& main_folder, const std::vector<std::string>& allowed_folders) {
+  allowed_folders_.push_back(canonical(main_folder));
+  for (const std::string& folder : allowed_folders) allowed_folders_.push_back(canonical(folder));
+}
+
+bool Files::is_allowed(const std::string& canonical_path) const {
+  for (const std::string& folder : allowed_folders_) {
+    const fs::path relative = fs::path(canonical_path).lexically_relative(folder);
+    if (!relative.empty() && *relative.begin() != "..") return true;
+  }
+  return false;
+}
+
+const SyntaxTree* Files::add(std::string name, std::string path, std::string text, Diagnostics& diagnostics) {
+  File file;
+  file.source = std::make_unique<Source>(std::move(name), std::move(path), std::move(text));
+  file.tree = parse(*file.source, diagnostics);
+  files_.push_back(std::move(file));
+  return files_.back().tree.get();
+}
+
+const SyntaxTree* Files::add_main(std::string name, std::string path, std::string text,
+                                  Diagnostics& diagnostics) {
+  const std::string key = path.empty() ? std::string() : canonical(path);
+  const SyntaxTree* tree = add(std::move(name), key, std::move(text), diagnostics);
+  if (!key.empty()) by_path_.emplace(key, tree);
+  return tree;
+}
+
+const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {
+  const fs::path folder = fs::path(from.source->path()).parent_path();
+  const std::string path = canonical((folder / file).string());
+  const auto known = by_path_.find(path);
+  if (known != by_path_.end()) return known->second;
+  if (!is_allowed(path)) {
+    diagnostics.error(from, fmt::format("'{}' lies outside of the scene's folder", file),
+                      fmt::format("--allow-path {} allows it", fs::path(path).parent_path().string()));
+    return nullptr;
+  }
+  std::error_code status_error;
+  const fs::file_status status = fs::status(path, status_error);
+  if (!fs::exists(status)) {
+    diagnostics.error(from, fmt::format("there is no file '{}'", file), fmt::format("looked for {}", path));
+    return nullptr;
+  }
+  if (!fs::is_regular_file(status)) {
+    diagnostics.error(from, fmt::format("'{}' is not a file to include", file),
+                      fs::is_directory(status) ? "it is a folder" : "it is a device or a pipe");
+    return nullptr;
+  }
+  const std::string shown = fs::path(from.source->name()).parent_path().empty()
+                                ? file
+                                : (fs::path(from.source->name()).parent_path() / file).string();
+  try {
+    const SyntaxTree* tree = add(shown, path, read_text(path), diagnostics);
+    by_path_.emplace(path, tree);
+    return tree;
+  } catch (const Error& error) {
+    diagnostics.error(from, error.what());
+    return nullptr;
+  }
+}
+
+const SyntaxTree* Files::tree_of(const Source& source) const {
+  for (const File& file : files_) {
+    if (file.source.get() == &source) return file.tree.get();
+  }
+  return nullptr;
+}
+
+std::vector<std::string> Files::read_paths() const {
+  std::vector<std::string> paths;
+  for (const File& file : files_) {
+    if (!file.source->path().empty()) paths.push_back(file.source->path());
+  }
+  return paths;
+}
+
+}  // namespace raytracer::scene_file

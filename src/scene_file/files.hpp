@@ -1,0 +1,53 @@
+// Which files a scene may read, and those it has read.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "scene_file/diagnostics.hpp"
+#include "scene_file/source.hpp"
+#include "scene_file/syntax.hpp"
+
+namespace raytracer::scene_file {
+
+/// The largest scene text that is read.
+inline constexpr std::uint64_t kLargestText = std::uint64_t{1} << 30U;
+
+class Files {
+ public:
+  /// `main_folder`: where the main scene stands; it and what is below may be read, as may `allowed_folders`.
+  Files(const std::string& main_folder, const std::vector<std::string>& allowed_folders);
+
+  /// Takes the main scene's text.
+  const SyntaxTree* add_main(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
+
+  /// The tree of a file that a scene at `from` names, parsed when first asked for. Null where it can't be had,
+  /// which has then been reported at `from`.
+  const SyntaxTree* include(const std::string& file, const Place& from, Diagnostics& diagnostics);
+
+  /// The tree of a source of this scene.
+  const SyntaxTree* tree_of(const Source& source) const;
+
+  std::vector<std::string> read_paths() const;
+
+ private:
+  struct File {
+    std::unique_ptr<Source> source;
+    std::unique_ptr<SyntaxTree> tree;
+  };
+
+  bool is_allowed(const std::string& canonical_path) const;
+  const SyntaxTree* add(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
+
+  std::vector<std::string> allowed_folders_;
+  std::vector<File> files_;
+  std::unordered_map<std::string, const SyntaxTree*> by_path_;
+};
+
+/// The content of a file, or of standard input for "-". Throws Error (kFile) with the reason.
+std::string read_text(const std::string& path);
+
+}  // namespace raytracer::scene_file

@@ -1,0 +1,214 @@
+#include "scene_file/lexer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace raytracer::scene_file {
+namespace {
+
+// <cctype> follows the locale; scene files do not.
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_word_character(char c) { return is_letter(c) || is_digit(c); }
+bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+// Of a number that no double holds: whether it is too small rather than too large.
+bool is_tiny(std::string_view number) {
+  const std::size_t exponent = number.find_first_of("eE");
+  if (exponent != std::string_view::npos) return number[exponent + 1] == '-';
+  return number.find_first_of("123456789") > number.find('.');
+}
+bool is_plain_ascii(char c) { return c > ' ' && c < 0x7F; }
+
+}  // namespace
+
+Lexer::Lexer(const Source& source, Diagnostics& diagnostics)
+    : source_(&source), text_(source.text()), diagnostics_(&diagnostics) {
+  if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
+}
+
+Lexer Lexer::quiet_copy() const {
+  Lexer copy = {*source_, *diagnostics_};
+  copy.position_ = position_;
+  copy.diagnostics_ = nullptr;
+  return copy;
+}
+
+void Lexer::error(Span span, std::string message, std::string suggestion) {
+  if (diagnostics_ != nullptr) {
+    diagnostics_->error({source_, span}, std::move(message), std::move(suggestion));
+  }
+}
+
+void Lexer::skip_block_comment() {
+  const std::uint32_t begin = position_;
+  std::uint32_t depth = 0;
+  do {
+    if (position_ >= text_.size()) {
+      error({begin, begin + 2}, "this comment is never closed", "'*/' is missing");
+      break;
+    }
+    const bool opens = at(position_) == '/' && at(position_ + 1) == '*';
+    const bool closes = at(position_) == '*' && at(position_ + 1) == '/';
+    depth += opens ? 1U : 0U;
+    depth -= closes ? 1U : 0U;
+    position_ += opens || closes ? 2U : 1U;
+  } while (depth > 0);
+  if (diagnostics_ != nullptr) comments_.push_back({begin, position_});
+}
+
+void Lexer::skip_blanks_and_comments() {
+  while (true) {
+    while (position_ < text_.size() && is_blank(text_[position_])) ++position_;
+    if (at(position_) != '/') return;
+    if (at(position_ + 1) == '/') {
+      const std::uint32_t begin = position_;
+      const std::size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
+      position_ = static_cast<std::uint32_t>(end);
+      if (diagnostics_ != nullptr) comments_.push_back({begin, position_});
+    } else if (at(position_ + 1) == '*') {
+      skip_block_comment();
+    } else {
+      return;
+    }
+  }
+}
+
+bool Lexer::starts_number(std::uint32_t offset) const {
+  return is_digit(at(offset)) || (at(offset) == '.' && is_digit(at(offset + 1)));
+}
+
+Token Lexer::next(LexMode mode) {
+  skip_blanks_and_comments();
+  const std::uint32_t begin = position_;
+  if (position_ >= text_.size()) return token(TokenType::kEnd, begin);
+  const char c = text_[position_];
+  if (is_letter(c)) return lex_word();
+  const bool is_sign = c == '+' || c == '-';
+  if (starts_number(position_) ||
+      (mode == LexMode::kValues && is_sign && starts_number(position_ + 1))) {
+    return lex_number();
+  }
+  switch (c) {
+    case '"': return lex_string();
+    case '#': return lex_color();
+    case '{': ++position_; return token(TokenType::kOpenBrace, begin);
+    case '}': ++position_; return token(TokenType::kCloseBrace, begin);
+    case '(': ++position_; return token(TokenType::kOpenParenthesis, begin);
+    case ')': ++position_; return token(TokenType::kCloseParenthesis, begin);
+    default: return lex_operator();
+  }
+}
+
+Token Lexer::lex_word() {
+  const std::uint32_t begin = position_;
+  while (is_word_character(at(position_))) ++position_;
+  return token(TokenType::kWord, begin);
+}
+
+Token Lexer::lex_number() {
+  const std::uint32_t begin = position_;
+  if (at(position_) == '+' || at(position_) == '-') ++position_;
+  while (is_digit(at(position_))) ++position_;
+  if (at(position_) == '.') ++position_;
+  while (is_digit(at(position_))) ++position_;
+  if (at(position_) == 'e' || at(position_) == 'E') {
+    const std::uint32_t sign = at(position_ + 1) == '+' || at(position_ + 1) == '-' ? 1 : 0;
+    if (is_digit(at(position_ + 1 + sign))) {
+      position_ += 1 + sign;
+      while (is_digit(at(position_))) ++position_;
+    }
+  }
+  if (is_word_character(at(position_)) || (at(position_) == '.' && !is_letter(at(position_ + 1)))) {
+    while (is_word_character(at(position_)) || at(position_) == '.') ++position_;
+    error({begin, position_}, fmt::format("'{}' is not a number", source_->text({begin, position_})),
+          "numbers look like 1, -0.5 or 1.5e-3");
+    return token(TokenType::kBad, begin);
+  }
+  Token result = token(TokenType::kNumber, begin);
+  const char* first = text_.data() + begin + (text_[begin] == '+' ? 1 : 0);
+  const auto [end, status] = std::from_chars(first, text_.data() + position_, result.number);
+  if (status == std::errc::result_out_of_range && is_tiny(source_->text(result.span))) {
+    result.number = 0;  // too small to tell from 0
+  } else if (status != std::errc()) {
+    error(result.span, fmt::format("'{}' is too large a number", source_->text(result.span)));
+    result.type = TokenType::kBad;
+  }
+  return result;
+}
+
+Token Lexer::lex_string() {
+  const std::uint32_t begin = position_++;
+  while (position_ < text_.size() && text_[position_] != '"') {
+    if (text_[position_] == '\n' || text_[position_] == '\r') break;
+    const bool escapes = text_[position_] == '\\' && (at(position_ + 1) == '"' || at(position_ + 1) == '\\');
+    position_ += escapes ? 2U : 1U;
+  }
+  if (at(position_) != '"') {
+    error({begin, begin + 1}, "this string is not closed on its line", "'\"' is missing");
+    return token(TokenType::kBad, begin);
+  }
+  ++position_;
+  return token(TokenType::kString, begin);
+}
+
+Token Lexer::lex_color() {
+  const std::uint32_t begin = position_++;
+  bool all_hexadecimal = true;
+  while (is_word_character(at(position_))) {
+    const char c = text_[position_++];
+    all_hexadecimal = all_hexadecimal && (is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'));
+  }
+  const std::uint32_t digits = position_ - begin - 1;
+  if (!all_hexadecimal || (digits != 3 && digits != 6)) {
+    error({begin, position_}, fmt::format("'{}' is not a colour", source_->text({begin, position_})),
+          "colours look like #f80 or #ff8800");
+    return token(TokenType::kBad, begin);
+  }
+  return token(TokenType::kColor, begin);
+}
+
+Token Lexer::lex_operator() {
+  const std::uint32_t begin = position_;
+  constexpr std::string_view kSingle = "+-*/%^<>=!?:,.";
+  constexpr std::string_view kTwins[] = {"<=", ">=", "==", "!="};
+  for (const std::string_view twin : kTwins) {
+    if (text_.substr(position_, 2) == twin) {
+      position_ += 2;
+      return token(TokenType::kOperator, begin);
+    }
+  }
+  if (kSingle.find(text_[position_]) == std::string_view::npos) return unexpected_characters();
+  ++position_;
+  return token(TokenType::kOperator, begin);
+}
+
+// A run of characters that mean nothing is one mistake.
+Token Lexer::unexpected_characters() {
+  const std::uint32_t begin = position_;
+  const bool ascii = is_plain_ascii(text_[begin]);
+  do {
+    ++position_;
+  } while (!ascii && position_ < text_.size() && !is_plain_ascii(text_[position_]) && !is_blank(text_[position_]));
+  const auto byte = static_cast<unsigned char>(text_[begin]);
+  if (byte < 0x20 || byte == 0x7F) {
+    error({begin, position_}, fmt::format("unexpected control character (byte {:#04x})", byte),
+          "a scene is plain text in UTF-8");
+  } else {
+    error({begin, position_}, fmt::format("unexpected '{}'", source_->text({begin, position_})));
+  }
+  return token(TokenType::kBad, begin);
+}
+
+std::string unquote(std::string_view quoted) {
+  std::string text;
+  for (std::size_t i = 1; i + 1 < quoted.size(); ++i) {
+    const bool escape = quoted[i] == '\\' && (quoted[i + 1] == '"' || quoted[i + 1] == '\\');
+    if (escape && i + 2 < quoted.size()) ++i;
+    text += quoted[i];
+  }
+  return text;
+}
+
+}  // namespace raytracer::scene_file

@@ -1,0 +1,71 @@
+// From characters to tokens.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "scene_file/diagnostics.hpp"
+#include "scene_file/source.hpp"
+
+namespace raytracer::scene_file {
+
+enum class TokenType : std::uint8_t {
+  kEnd,
+  kWord,
+  kNumber,
+  kString,
+  kColor,  ///< #rgb or #rrggbb
+  kOpenBrace,
+  kCloseBrace,
+  kOpenParenthesis,
+  kCloseParenthesis,
+  kOperator,  ///< any other punctuation of expressions, one or two characters
+  kBad,       ///< already reported; stands for a value that nobody knows
+};
+
+struct Token {
+  TokenType type = TokenType::kEnd;
+  Span span;
+  double number = 0;  ///< of a kNumber
+};
+
+/// Whether a sign belongs to the number behind it (a list of values) or is an operator (inside parentheses).
+enum class LexMode : std::uint8_t { kValues, kExpression };
+
+/// Reads tokens one after the other. Comments are kept aside, with their places, for tools that rewrite files.
+class Lexer {
+ public:
+  Lexer(const Source& source, Diagnostics& diagnostics);
+
+  Token next(LexMode mode);
+
+  /// The tokens to come, without a word to anybody, for looking ahead.
+  Lexer quiet_copy() const;
+
+  const std::vector<Span>& comments() const { return comments_; }
+
+ private:
+  void skip_blanks_and_comments();
+  void skip_block_comment();
+  Token lex_word();
+  Token lex_number();
+  Token lex_string();
+  Token lex_color();
+  Token lex_operator();
+  Token unexpected_characters();
+  Token token(TokenType type, std::uint32_t begin) const { return {type, {begin, position_}, 0}; }
+  char at(std::uint32_t offset) const { return offset < text_.size() ? text_[offset] : '\0'; }
+  bool starts_number(std::uint32_t offset) const;
+  void error(Span span, std::string message, std::string suggestion = {});
+
+  const Source* source_;
+  std::string_view text_;
+  Diagnostics* diagnostics_;  // null in a quiet copy
+  std::uint32_t position_ = 0;
+  std::vector<Span> comments_;
+};
+
+/// The text between the quotes of a kString token, its escapes resolved.
+std::string unquote(std::string_view quoted);
+
+}  // namespace raytracer::scene_file

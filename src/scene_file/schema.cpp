@@ -1,0 +1,147 @@
+#include "scene_file/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "scene_file/kinds.hpp"
+
+namespace raytracer::scene_file {
+namespace {
+
+// What the builder reads itself, whatever the kind: these rows have no struct to store into.
+constexpr PropertyRow common(std::string_view name, PropertyType type, std::string_view unit,
+                             std::string_view help, std::string_view default_text) {
+  PropertyRow row;
+  row.name = name;
+  row.type = type;
+  row.unit = unit;
+  row.help = help;
+  row.default_text = default_text;
+  return row;
+}
+
+constexpr PropertyRow kTransformRows[] = {
+    common("translate", PropertyType::kVector, "scene units", "Moves it.", "0 0 0"),
+    common("rotate", PropertyType::kVector, "degrees",
+           "Turns it on the spot about x, then y, then z, counter-clockwise seen from the tip of the axis.",
+           "0 0 0"),
+    common("rotate_axis", PropertyType::kAxisAngle, "degrees",
+           "Turns it on the spot about the axis x y z by an angle.", "0 1 0 0"),
+    common("scale", PropertyType::kSize, "", "Grows it on the spot; negative mirrors.", "1"),
+    common("pivot", PropertyType::kVector, "scene units",
+           "The spot to turn and grow about, in place of its own middle.", "its middle"),
+    common("matrix", PropertyType::kMatrix, "",
+           "In place of all these: three rows of four numbers, applied to columns.", "1 0 0 0  0 1 0 0  0 0 1 0"),
+};
+
+constexpr PropertyRow kMaterialRow =
+    common("material", PropertyType::kMaterial, "", "What the surface is made of: a name or { … }.",
+           "that of the group, else white 0.8");
+
+}  // namespace
+
+std::span<const KindRow> all_kinds() {
+  static const std::vector<KindRow> rows = [] {
+    std::vector<KindRow> all;
+    for (const std::span<const KindRow> table :
+         {setting_kinds(), light_kinds(), material_kinds(), group_kinds(), shape_kinds()}) {
+      all.insert(all.end(), table.begin(), table.end());
+    }
+    return all;
+  }();
+  return rows;
+}
+
+std::span<const PropertyRow> transform_properties() { return kTransformRows; }
+const PropertyRow& material_property() { return kMaterialRow; }
+
+const KindRow* find_kind(std::string_view name, std::string_view variant) {
+  for (const KindRow& row : all_kinds()) {
+    if (row.name == name && row.variant == variant) return &row;
+  }
+  return nullptr;
+}
+
+bool may_have_variant(std::string_view kind) {
+  return std::ranges::any_of(all_kinds(),
+                             [&](const KindRow& row) { return row.name == kind && !row.variant.empty(); });
+}
+
+const PropertyRow* find_property(const KindRow& kind, std::string_view name) {
+  const auto find_in = [&](std::span<const PropertyRow> rows) -> const PropertyRow* {
+    const auto row = std::ranges::find(rows, name, &PropertyRow::name);
+    return row == rows.end() ? nullptr : &*row;
+  };
+  if (const PropertyRow* row = find_in(kind.properties)) return row;
+  if (kind.takes_material && name == kMaterialRow.name) return &kMaterialRow;
+  return kind.placing == Placing::kNone ? nullptr : find_in(kTransformRows);
+}
+
+bool is_property_of(std::string_view kind, std::string_view property) {
+  return std::ranges::any_of(all_kinds(), [&](const KindRow& row) {
+    return row.name == kind && find_property(row, property) != nullptr;
+  });
+}
+
+std::string describe_type(const PropertyRow& row) {
+  switch (row.type) {
+    case PropertyType::kNumber: return "a number";
+    case PropertyType::kInteger: return "a whole number";
+    case PropertyType::kBoolean: return "true or false";
+    case PropertyType::kString: return "a string";
+    case PropertyType::kVector: return "three numbers";
+    case PropertyType::kSize: return "one number or three";
+    case PropertyType::kPixels: return "two whole numbers";
+    case PropertyType::kColor: return "a colour";
+    case PropertyType::kWord: return fmt::format("one of {}", fmt::join(row.words, ", "));
+    case PropertyType::kMaterial: return "a material";
+    case PropertyType::kAxisAngle: return "an axis x y z and an angle";
+    case PropertyType::kMatrix: return "twelve numbers";
+  }
+  return {};
+}
+
+std::string example_value(const PropertyRow& row) {
+  switch (row.type) {
+    case PropertyType::kNumber:
+    case PropertyType::kInteger:
+      return detail::number_text(std::clamp(1.0, row.range.least, row.range.most));
+    case PropertyType::kBoolean: return "true";
+    case PropertyType::kString: return "\"text\"";
+    case PropertyType::kVector: return "0 1 0";
+    case PropertyType::kSize: return "1";
+    case PropertyType::kPixels: return "960 540";
+    case PropertyType::kColor: return "0.9 0.4 0.1";
+    case PropertyType::kWord: return std::string(row.words.front());
+    case PropertyType::kMaterial: return "{ color red }";
+    case PropertyType::kAxisAngle: return "0 1 0 45";
+    case PropertyType::kMatrix: return "1 0 0 0  0 1 0 0  0 0 1 0";
+  }
+  return {};
+}
+
+std::string describe_range(const Range& range) {
+  const bool has_least = range.least > kAnyNumber.least;
+  const bool has_most = range.most < kAnyNumber.most;
+  const std::string least = detail::number_text(range.least);
+  const std::string most = detail::number_text(range.most);
+  if (has_least && has_most) {
+    return range.above_least ? fmt::format("above {} and at most {}", least, most)
+                             : fmt::format("between {} and {}", least, most);
+  }
+  if (has_least) return range.above_least ? "greater than " + least : "at least " + least;
+  if (has_most) return "at most " + most;
+  return fmt::format("within {}", most);
+}
+
+std::string describe_default(const KindRow& kind, const PropertyRow& row) {
+  if (row.required) return {};
+  if (!row.default_text.empty() || row.default_value == nullptr) return std::string(row.default_text);
+  return kind.default_of(row);
+}
+
+std::string detail::number_text(double value) { return fmt::format("{}", value); }
+
+}  // namespace raytracer::scene_file

@@ -1,0 +1,39 @@
+// The intersection of a line with a ball.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace raytracer::shapes {
+
+/// The stretch of a ray inside a convex body, in units of |direction|.
+template <class T>
+struct Span {
+  T near, far;
+};
+
+/// Where the line from + t direction is inside the ball of `radius` around the origin. Returns false where it misses,
+/// or leaves the ball behind (t < 0 at both ends).
+///
+/// The discriminant is taken from the point of the line that is closest to the centre, and the end close to `from` as a
+/// quotient: E. Haines, J. Günther, T. Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray
+/// Tracing Gems, 2019, chapter 7, equations (5) and (10). T is float or double; Vector is any three of them.
+template <class T, class Vector>
+inline bool intersect_ball(const Vector& from, const Vector& direction, T radius, Span<T>& span) {
+  const T b = -glm::dot(from, direction);
+  const T squared_radius = radius * radius;
+  const T c = glm::dot(from, from) - squared_radius;
+  if (c > 0 && b <= 0) return false;  // outside and on the way out
+  const T inverse_a = T(1) / glm::dot(direction, direction);
+  const Vector closest = from + (b * inverse_a) * direction;
+  const T discriminant = squared_radius - glm::dot(closest, closest);
+  if (!(discriminant >= 0)) return false;
+  const T half_chord = std::sqrt(discriminant * inverse_a);
+  const T middle = b * inverse_a;
+  const T larger = middle + std::copysign(half_chord, b);
+  const T smaller = c * inverse_a / larger;
+  span = smaller < larger ? Span<T>{smaller, larger} : Span<T>{larger, smaller};
+  return true;
+}
+
+}  // namespace raytracer::shapes

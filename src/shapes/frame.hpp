@@ -1,0 +1,52 @@
+// A shape's own space: where it has its simplest form, about one unit across, around the origin.
+#pragma once
+
+#include "core/numeric.hpp"
+#include "raytracer/shape.hpp"
+#include "shapes/surface.hpp"
+
+namespace raytracer::shapes {
+
+/// A ray in a shape's own space; t means the same there as in the world, so its direction has any length.
+struct LocalRay {
+  Vector3d origin;
+  Vector3d direction;
+
+  Vector3d at(double t) const { return origin + t * direction; }
+};
+
+/// The affine map between a shape's own space and the world. In double precision, so that what remains of the error
+/// is the rounding of the ray that comes in.
+class Frame {
+ public:
+  /// `to_world` must be regular; the shape must lie around the local origin.
+  explicit Frame(const Transform& to_world);
+
+  LocalRay to_local(const Ray3f& ray) const {
+    return {to_local_ * (Vector3d(ray.origin) - translation_), to_local_ * Vector3d(ray.direction)};
+  }
+  Vector3d to_world(const Vector3d& point) const { return to_world_ * point + translation_; }
+
+  /// The point of the surface at the local `point` with the local unit normal `normal` (outwards stays outwards, also
+  /// where the frame mirrors). `curvature` is the largest curvature of the surface there and `extent` the size of the
+  /// shape in the world, see SurfaceBound. `amplification` is how much more than the rounding of a number about 1 the
+  /// shape's own arithmetic is off, across the surface.
+  SurfacePoint surface_at(const Vector3d& point, const Vector3d& normal, const Vector2f& uv, double curvature,
+                          const Vector3d& extent, double amplification = 1) const;
+
+ private:
+  glm::dmat3 to_world_;
+  glm::dmat3 to_local_;
+  glm::dmat3 absolute_to_local_;
+  Vector3d translation_;
+  Vector3d round_trip_;  // per local axis, how much the map to the world and back magnifies rounding
+};
+
+/// Right-handed axes with `axis` (not zero) as the third, of unit length. The first lies across y, as seen with y up it
+/// points to the right of one who looks against `axis`; for an axis along +y the first two are +x and -z.
+glm::dmat3 axes_around(const Vector3d& axis);
+
+/// The angle of (x, y) as a share of the full turn, in [0, 1).
+float turn_share(double x, double y);
+
+}  // namespace raytracer::shapes

@@ -1,0 +1,65 @@
+#include "raytracer/shapes.hpp"
+#include "shapes/checks.hpp"
+#include "shapes/frame.hpp"
+#include "shapes/hits.hpp"
+#include "shapes/surface.hpp"
+
+namespace raytracer {
+
+namespace {
+
+/// The plane through `point` across `normal`. The normal is rounded to float before anything else: what rays meet is
+/// exactly across the normal that surface_at() reports, however far away. uv is the place in the plane in the shape's
+/// own units, from `point`; before the transform, for the normals y and z:
+///
+///     point + …   u  v          point + …   u  v
+///      1  0  0    1  0           1  0  0    1  0
+///      0  0 -1    0  1           0  1  0    0  1
+class Plane final : public Shape {
+ public:
+  Plane(const Vector3d& point, const Vector3d& normal, const Vector3d& along_u, const Vector3d& along_v)
+      : point_(point), normal_(normal), along_u_(along_u), along_v_(along_v) {}
+
+  Box3f bounds() const override { return Box3f::infinite(); }
+
+  bool is_hit(const Ray3f& ray, Hit& hit) const override {
+    const Vector3d normal(normal_);
+    const Vector3d from = Vector3d(ray.origin) - point_;
+    const double t = -glm::dot(normal, from) / glm::dot(normal, Vector3d(ray.direction));
+    if (!shapes::is_on_ray(ray, t)) return false;
+    shapes::set_hit(hit, t);
+    return true;
+  }
+
+  SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
+    const Vector3d normal(normal_);
+    const Vector3d found =
+        Vector3d(ray.origin) - point_ + static_cast<double>(hit.t) * Vector3d(ray.direction);
+    const Vector3d offset = found - glm::dot(normal, found) / glm::dot(normal, normal) * normal;
+    shapes::SurfaceBound bound;
+    bound.arithmetic = 8 * kDoubleRounding * (glm::length(point_) + glm::length(offset));
+    return shapes::rounded_surface(point_ + offset, normal,
+                                   Vector2f(glm::dot(along_u_, offset), glm::dot(along_v_, offset)), bound);
+  }
+
+ private:
+  Vector3d point_;
+  Vector3f normal_;  // unit length but for the rounding to float
+  Vector3d along_u_, along_v_;
+};
+
+}  // namespace
+
+std::unique_ptr<Shape> make_plane(const Vector3d& point, const Vector3d& normal, const Transform& transform) {
+  shapes::require_finite(point, "point");
+  shapes::require_nonzero(normal, "normal");
+  shapes::require_regular(transform);
+  const Vector3d world_point = transform.point(point);
+  shapes::rounded_bounds(world_point, world_point);  // only to refuse a point that is out of range
+  // Normals, and the gradients of u and v, map by the inverse transpose.
+  const glm::dmat3 axes = glm::transpose(glm::inverse(transform.linear)) * shapes::axes_around(normal);
+  const Vector3d world_normal = glm::normalize(axes[2]);
+  return std::make_unique<Plane>(world_point, world_normal, axes[0], axes[1]);
+}
+
+}  // namespace raytracer

@@ -1,0 +1,30 @@
+"""Runs the built program from outside, for the tests written in Python."""
+
+import os
+import pathlib
+import subprocess
+
+PROGRAM = os.environ.get("RAYTRACER", str(pathlib.Path(__file__).parents[1] / "raytracer"))
+ROOT = pathlib.Path(__file__).parents[1]
+
+
+def run(*arguments, stdin=b"", cwd=None, env=None, timeout=120, **options):
+    """The finished program: .returncode, .stdout and .stderr, both as bytes."""
+    environment = dict(os.environ, **(env or {}))
+    return subprocess.run(
+        [PROGRAM, *map(str, arguments)], input=stdin, capture_output=True, cwd=cwd, env=environment,
+        timeout=timeout, check=False, **options)
+
+
+def read_pfm(data):
+    """(width, height, rows from the top of (r, g, b) tuples) of a PFM file's bytes."""
+    import struct
+    header, size, scale, body = data.split(b"\n", 3)
+    assert header == b"PF" and float(scale) == -1.0, (header, scale)
+    width, height = map(int, size.split())
+    values = struct.unpack(f"<{3 * width * height}f", body)
+    rows = []
+    for y in reversed(range(height)):
+        row = values[3 * width * y:3 * width * (y + 1)]
+        rows.append([row[3 * x:3 * x + 3] for x in range(width)])
+    return width, height, rows
