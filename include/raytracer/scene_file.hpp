@@ -32,6 +32,26 @@ std::string to_text(const Diagnostic& diagnostic);
 /// The same as one JSON object.
 std::string to_json(const Diagnostic& diagnostic);
 
+/// How much a scene may ask for. Past a limit it is refused with an error at the place that asked.
+struct Limits {
+  std::uint64_t include_depth = 32;           ///< files that include each other
+  std::uint64_t nesting = 256;                ///< uses of definitions inside each other
+  std::uint64_t shapes = 50'000'000;          ///< shapes made, instances counted once
+  std::uint64_t steps = 1'000'000'000;        ///< steps of evaluation
+};
+
+/// A top-level `let` of the scene that the caller replaces: `--set name=value`.
+struct Setting {
+  std::string name;
+  std::string value;  ///< as it would be written: 12, #ff8800, tomato, (1, 2, 3) or 1,2,3, or text for a string
+};
+
+/// A top-level `let`, as `raytracer params` lists it.
+struct Parameter {
+  std::string name;
+  std::string value;  ///< as it would be written
+};
+
 /// What the caller decides over the head of the scene file.
 struct LoadOptions {
   std::vector<std::string> allowed_folders;  ///< besides the scene's own
@@ -39,6 +59,17 @@ struct LoadOptions {
   std::optional<int> samples;
   std::optional<int> bounces;
   std::string camera;  ///< the name of the camera to use; empty: the first
+  std::vector<Setting> settings;
+  Limits limits;
+};
+
+/// `animation { duration fps }`
+struct Animation {
+  double duration = 0;  ///< seconds; 0: the scene is a still
+  double fps = 24;
+
+  /// How many frames there are; frame n, from 1, shows the time (n - 1) / fps.
+  int frames() const;
 };
 
 /// A scene file, read and checked.
@@ -46,7 +77,10 @@ struct LoadedScene {
   std::vector<Diagnostic> diagnostics;
   std::vector<std::string> files_read;  ///< as canonical paths
   RenderSettings settings;
-  SceneAt scene_at;          ///< empty unless ok()
+  SceneAt scene_at;  ///< empty unless ok(); throws Error (kScene) where the scene is wrong at that time alone
+  Animation animation;
+  bool depends_on_time = false;
+  std::vector<Parameter> parameters;
   std::uint64_t shapes = 0;  ///< how many were built
 
   bool ok() const { return static_cast<bool>(scene_at); }

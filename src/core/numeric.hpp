@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include "raytracer/vector3f.hpp"
 
@@ -28,7 +27,8 @@ inline float float_below(double x) {
   return rounded > x ? std::nextafter(rounded, -kInfinity) : rounded;
 }
 
-/// v rounded to float. Through memory: where GCC 12 vectorises Vector3d(Vector3f(v)) it drops both conversions.
+/// v rounded to float. Through memory: where GCC 12 vectorises Vector3d(Vector3f(v)) it drops both
+/// conversions.
 inline Vector3d as_float(const Vector3d& v) {
   const volatile float x = static_cast<float>(v.x), y = static_cast<float>(v.y), z = static_cast<float>(v.z);
   return {x, y, z};

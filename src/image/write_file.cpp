@@ -171,8 +171,8 @@ void replace(const Destination& place, const std::vector<std::uint8_t>& bytes, c
   if (write_unnamed(folder.get(), place, bytes, asked) == Outcome::kNotPossibleHere) {
     write_named(folder.get(), place, bytes, asked);
   }
-  fsync(folder.get());  // the picture is in place; a file system that can't flush folders is no reason to
-                        // complain
+  // The picture is in place: a folder that can't be flushed is no reason to complain.
+  fsync(folder.get());
 }
 
 }  // namespace

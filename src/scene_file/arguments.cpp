@@ -2,15 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
 
 #include "core/suggest.hpp"
-#include "scene_file/colors.hpp"
-#include "scene_file/lexer.hpp"
 
 namespace raytracer::scene_file {
 namespace {
+
+constexpr std::size_t kMostNumbers = 12;  // of a matrix
 
 std::string did_you_mean(std::string_view word) {
   return word.empty() ? std::string() : fmt::format("did you mean '{}'?", word);
@@ -19,8 +20,13 @@ std::string did_you_mean(std::string_view word) {
 class ArgumentReader {
  public:
   ArgumentReader(const PropertyRow& row, const PropertyNode& property, const Source& source,
-                 Diagnostics& diagnostics)
-      : row_(row), property_(property), source_(source), diagnostics_(diagnostics) {}
+                 const Visibility& visibility, Evaluator& evaluator, Diagnostics& diagnostics)
+      : row_(row),
+        property_(property),
+        source_(source),
+        visibility_(visibility),
+        evaluator_(evaluator),
+        diagnostics_(diagnostics) {}
 
   std::optional<Argument> read() {
     for (const ValueNode& value : property_.values) {
@@ -31,59 +37,93 @@ class ArgumentReader {
       return std::nullopt;
     }
     switch (row_.type) {
-      case PropertyType::kNumber:
-      case PropertyType::kInteger: return numbers({1});
-      case PropertyType::kPixels: return numbers({2});
-      case PropertyType::kVector: return numbers({3});
-      case PropertyType::kSize: return spread(numbers({1, 3}));
-      case PropertyType::kAxisAngle: return numbers({4});
-      case PropertyType::kMatrix: return numbers({12});
-      case PropertyType::kColor: return color();
-      case PropertyType::kBoolean: return word_of(kBooleans);
-      case PropertyType::kWord: return word_of(row_.words);
+      case PropertyType::kWord: return word();
       case PropertyType::kMaterial: return name();
-      case PropertyType::kString: return string();
+      case PropertyType::kBoolean: return single(ValueType::kBoolean);
+      case PropertyType::kString: return single(ValueType::kString);
+      default: return numbers();
     }
-    return std::nullopt;
   }
 
  private:
-  static constexpr std::string_view kBooleans[] = {"false", "true"};
+  // A number and the value node that it came from.
+  struct Component {
+    double number;
+    const ValueNode* node;
+  };
 
   std::string_view text(const ValueNode& value) const { return source_.text(value.span); }
   std::string example() const { return fmt::format("{} {}", row_.name, example_value(row_)); }
-  Span all_values() const { return {property_.values.front().span.begin, property_.values.back().span.end}; }
+  Span values_from(std::size_t first) const {
+    return {property_.values[first].span.begin, property_.values.back().span.end};
+  }
   void error(Span span, std::string message, std::string suggestion = {}) {
     diagnostics_.error({&source_, span}, std::move(message), std::move(suggestion));
   }
 
-  void wrong_type(const ValueNode& value) {
-    const std::string_view what = value.kind == ValueKind::kString  ? "the string "
-                                  : value.kind == ValueKind::kColor ? "the colour "
-                                                                    : "";
-    const std::string_view quote = value.kind == ValueKind::kWord ? "'" : "";
-    error(value.span,
-          fmt::format("'{}' takes {}, found {}{}{}{}", row_.name, describe_type(row_), what, quote, text(value),
-                      quote),
-          example());
+  void wrong_type(const ValueNode& value, std::string_view what) {
+    error(value.span, fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), what), example());
   }
 
-  bool check_count(std::size_t wanted) {
-    const std::span<const ValueNode> values = property_.values;
-    if (values.size() == wanted) return true;
-    const bool too_many = values.size() > wanted;
-    error(too_many ? Span{values[wanted].span.begin, values.back().span.end} : all_values(),
-          fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), values.size()), example());
+  bool is_spread() const {
+    return row_.type == PropertyType::kSize || row_.type == PropertyType::kColor;
+  }
+
+  // Adds a value's numbers to the components; a vector counts as three where more than one is wanted.
+  bool take(const ValueNode& node, const Value& value) {
+    const bool fits = value.is_number() || (value.is_vector() && most_numbers(row_.type) > 2);
+    if (!fits) {
+      const std::string_view kind = describe(value.type);
+      wrong_type(node, node.kind == ValueKind::kExpression
+                           ? std::string(kind)
+                           : fmt::format("{} {}", kind.starts_with("a ") ? "the" + std::string(kind.substr(1)) : kind,
+                                         text(node)));
+      return false;
+    }
+    argument_.is_display = value.is_display && property_.values.size() == 1;
+    argument_.depends_on_time = argument_.depends_on_time || value.depends_on_time;
+    for (int i = 0; i < (value.is_vector() ? 3 : 1); ++i) {
+      if (count_ < components_.size()) components_[count_] = {value.vector[i], &node};
+      ++count_;
+    }
+    return true;
+  }
+
+  std::optional<Argument> numbers() {
+    for (const ValueNode& node : property_.values) {
+      const Value value = evaluator_.evaluate(node, source_, visibility_);
+      if (!value.is_known() || !take(node, value)) return std::nullopt;
+    }
+    if (!check_count()) return std::nullopt;
+    bool sound = true;
+    for (std::size_t i = 0; i < count_; ++i) {
+      sound = check_range(components_[i]) && sound;
+      argument_.numbers[i] = components_[i].number;
+    }
+    if (is_spread() && count_ == 1) argument_.numbers[1] = argument_.numbers[2] = argument_.numbers[0];
+    return sound ? std::optional(argument_) : std::nullopt;
+  }
+
+  bool check_count() {
+    const std::size_t most = most_numbers(row_.type);
+    if (count_ == most || (is_spread() && count_ == 1)) return true;
+    const std::size_t first_extra =
+        count_ > most ? std::min(most, property_.values.size() - 1) : 0;
+    error(values_from(first_extra), fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), count_),
+          example());
     return false;
   }
 
-  bool check_range(const ValueNode& value) {
+  bool check_range(const Component& component) {
     const Range& range = row_.range;
-    const double x = value.number;
+    const double x = component.number;
+    const ValueNode& node = *component.node;
+    const std::string found =
+        node.kind == ValueKind::kNumber ? std::string(text(node)) : detail::number_text(x);
     if (x >= range.least && x <= range.most && !(range.above_least && x == range.least)) {
       const bool whole = row_.type == PropertyType::kInteger || row_.type == PropertyType::kPixels;
       if (!whole || x == std::floor(x)) return true;
-      error(value.span, fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), text(value)),
+      error(node.span, fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), found),
             fmt::format("{} {}", row_.name, std::max(range.least, std::round(x))));
       return false;
     }
@@ -91,117 +131,91 @@ class ArgumentReader {
     if (row_.type == PropertyType::kColor && range.most == 1 && x > 1 && x <= 255) {
       hint = "1 is full strength; 0..255 is written #rrggbb";
     }
-    error(value.span, fmt::format("'{}' must be {}, found {}", row_.name, describe_range(range), text(value)),
-          hint);
+    error(node.span, fmt::format("'{}' must be {}, found {}", row_.name, describe_range(range), found), hint);
     return false;
   }
 
-  std::optional<Argument> numbers(std::initializer_list<std::size_t> counts) {
-    const std::span<const ValueNode> values = property_.values;
-    for (const ValueNode& value : values) {
-      if (value.kind == ValueKind::kNumber) continue;
-      wrong_type(value);
-      return std::nullopt;
-    }
-    std::size_t wanted = *(counts.end() - 1);
-    for (const std::size_t count : counts) wanted = values.size() == count ? count : wanted;
-    if (!check_count(wanted)) return std::nullopt;
-    Argument argument;
-    bool sound = true;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      sound = check_range(values[i]) && sound;
-      argument.numbers[i] = values[i].number;
-    }
-    return sound ? std::optional(argument) : std::nullopt;
+  bool check_single() {
+    if (property_.values.size() == 1) return true;
+    error(values_from(1), fmt::format("'{}' takes {}, found {} values", row_.name, describe_type(row_),
+                                      property_.values.size()),
+          example());
+    return false;
   }
 
-  // One number stands for three.
-  std::optional<Argument> spread(std::optional<Argument> argument) const {
-    if (argument && property_.values.size() == 1) {
-      argument->numbers[1] = argument->numbers[2] = argument->numbers[0];
+  std::optional<Argument> single(ValueType wanted) {
+    const ValueNode& node = property_.values.front();
+    const Value value = evaluator_.evaluate(node, source_, visibility_);
+    if (!value.is_known()) return std::nullopt;
+    if (value.type != wanted) {
+      wrong_type(node, describe(value.type));
+      return std::nullopt;
     }
-    return argument;
+    if (!check_single()) return std::nullopt;
+    argument_.numbers[0] = value.x();
+    argument_.text = value.text;
+    argument_.depends_on_time = value.depends_on_time;
+    return argument_;
   }
 
-  std::optional<Argument> color() {
-    const ValueNode& first = property_.values.front();
-    if (first.kind == ValueKind::kNumber) return spread(numbers({1, 3}));
-    if (first.kind == ValueKind::kString) {
-      wrong_type(first);
-      return std::nullopt;
-    }
-    if (property_.values.size() > 1) {
-      error({property_.values[1].span.begin, property_.values.back().span.end},
-            fmt::format("'{}' takes one colour", row_.name), example());
-      return std::nullopt;
-    }
-    const std::optional<Vector3d> rgb =
-        first.kind == ValueKind::kColor ? hexadecimal_color(text(first))
-                                                                        : named_color(text(first));
-    if (!rgb) {
-      error(first.span, fmt::format("there is no colour '{}'", text(first)),
-            did_you_mean(nearest_word(text(first), color_names())));
-      return std::nullopt;
-    }
-    Argument argument;
-    argument.numbers = {rgb->x, rgb->y, rgb->z};
-    return argument;
-  }
-
-  std::optional<Argument> word_of(std::span<const std::string_view> words) {
+  std::optional<Argument> word() {
     const ValueNode& first = property_.values.front();
     if (first.kind != ValueKind::kWord) {
-      wrong_type(first);
+      wrong_type(first, text(first));
       return std::nullopt;
     }
-    if (!check_count(1)) return std::nullopt;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      if (words[i] != text(first)) continue;
-      Argument argument;
-      argument.index = static_cast<std::uint32_t>(i);
-      argument.numbers[0] = static_cast<double>(i);
-      return argument;
+    if (!check_single()) return std::nullopt;
+    const auto found = std::ranges::find(row_.words, text(first));
+    if (found == row_.words.end()) {
+      error(first.span, fmt::format("'{}' takes {}, found '{}'", row_.name, describe_type(row_), text(first)),
+            did_you_mean(nearest_word(text(first), row_.words)));
+      return std::nullopt;
     }
-    error(first.span, fmt::format("'{}' takes {}, found '{}'", row_.name, describe_type(row_), text(first)),
-          did_you_mean(nearest_word(text(first), words)));
-    return std::nullopt;
+    argument_.index = static_cast<std::uint32_t>(found - row_.words.begin());
+    return argument_;
   }
 
   std::optional<Argument> name() {
     const ValueNode& first = property_.values.front();
     if (first.kind != ValueKind::kWord) {
-      wrong_type(first);
+      wrong_type(first, text(first));
       return std::nullopt;
     }
-    if (!check_count(1)) return std::nullopt;
-    Argument argument;
-    argument.text = text(first);
-    return argument;
-  }
-
-  std::optional<Argument> string() {
-    const ValueNode& first = property_.values.front();
-    if (first.kind != ValueKind::kString) {
-      wrong_type(first);
-      return std::nullopt;
-    }
-    if (!check_count(1)) return std::nullopt;
-    Argument argument;
-    argument.text = unquote(text(first));
-    return argument;
+    if (!check_single()) return std::nullopt;
+    argument_.text = text(first);
+    return argument_;
   }
 
   const PropertyRow& row_;
   const PropertyNode& property_;
   const Source& source_;
+  const Visibility& visibility_;
+  Evaluator& evaluator_;
   Diagnostics& diagnostics_;
+  Argument argument_;
+  std::array<Component, kMostNumbers> components_{};
+  std::size_t count_ = 0;
 };
 
 }  // namespace
 
+std::size_t most_numbers(PropertyType type) {
+  switch (type) {
+    case PropertyType::kNumber:
+    case PropertyType::kInteger: return 1;
+    case PropertyType::kPixels: return 2;
+    case PropertyType::kVector:
+    case PropertyType::kSize:
+    case PropertyType::kColor: return 3;
+    case PropertyType::kAxisAngle: return 4;
+    case PropertyType::kMatrix: return kMostNumbers;
+    default: return 0;
+  }
+}
+
 std::optional<Argument> read_argument(const PropertyRow& row, const PropertyNode& property, const Source& source,
-                                      Diagnostics& diagnostics) {
-  return ArgumentReader(row, property, source, diagnostics).read();
+                                      const Visibility& visibility, Evaluator& evaluator, Diagnostics& diagnostics) {
+  return ArgumentReader(row, property, source, visibility, evaluator, diagnostics).read();
 }
 
 }  // namespace raytracer::scene_file

@@ -2,52 +2,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/suggest.hpp"
-#include "raytracer/error.hpp"
 #include "scene_file/arguments.hpp"
 #include "scene_file/builder.hpp"
+#include "scene_file/placing.hpp"
 
 namespace raytracer::scene_file {
 namespace {
 
-glm::dmat3 rotation_about(const Vector3d& axis, double degrees) {
-  // Rodrigues' formula as a matrix; glm's columns are written one per line.
-  const Vector3d n = glm::normalize(axis);
-  // Quarter turns are exact: nobody wants 6e-17 where a 0 belongs.
-  const double turns = degrees / 90;
-  const bool quarter = turns == std::floor(turns);
-  const int quarters = quarter ? static_cast<int>(std::fmod(std::fmod(turns, 4) + 4, 4)) : 0;
-  constexpr double kSines[] = {0, 1, 0, -1};
-  const double s = quarter ? kSines[quarters] : std::sin(glm::radians(degrees));
-  const double c = quarter ? kSines[(quarters + 1) % 4] : std::cos(glm::radians(degrees));
-  const Vector3d m = (1 - c) * n;
-  return {Vector3d(m.x * n.x + c, m.x * n.y + s * n.z, m.x * n.z - s * n.y),
-          Vector3d(m.y * n.x - s * n.z, m.y * n.y + c, m.y * n.z + s * n.x),
-          Vector3d(m.z * n.x + s * n.y, m.z * n.y - s * n.x, m.z * n.z + c)};
-}
+// A transform word: the builder itself knows what to do with it.
+bool is_placing(const PropertyRow& row) { return row.store == nullptr && row.is_placing; }
 
-Vector3d vector_of(const Argument& a) { return {a.numbers[0], a.numbers[1], a.numbers[2]}; }
-
-Transform matrix_of(const Argument& a) {
-  Transform transform;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      transform.linear[column][row] = a.numbers[static_cast<std::size_t>(4 * row + column)];
-    }
-    transform.translation[row] = a.numbers[static_cast<std::size_t>(4 * row + 3)];
-  }
-  return transform;
+bool is_misspelt_number(std::string_view word) {
+  std::string lower(word);
+  std::ranges::transform(lower, lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return lower == "nan" || lower == "inf" || lower == "infinity";
 }
 
 }  // namespace
-
-Transform PlacingWords::about(const Vector3d& spot) const {
-  if (matrix) return *matrix;
-  const Vector3d fixed = pivot.value_or(spot);
-  return {linear, fixed - linear * fixed + translation};
-}
 
 SceneDraft& BlockContext::draft() { return builder_.draft_; }
 
@@ -62,64 +35,44 @@ void BlockContext::error(std::string_view property, std::string message, std::st
                               std::move(suggestion));
 }
 
+// The message of a shape that can't be quotes the property it is about; the place is that property's, if it was given.
+void BlockContext::report_bad_shape(std::string_view problem) {
+  const std::size_t open = problem.find('\'');
+  const std::size_t close = open == std::string_view::npos ? open : problem.find('\'', open + 1);
+  const bool names_property = close != std::string_view::npos;
+  error(names_property ? problem.substr(open + 1, close - open - 1) : std::string_view(), std::string(problem));
+}
+
 // Notes a property as given; false where it was given before, which is an error unless it places the block.
 bool BlockContext::accept(const PropertyRow& row, const Place& place) {
   const Given* first = given(row.name);
-  const bool repeatable = row.store == nullptr && row.type != PropertyType::kMaterial && row.name != "pivot" &&
-                          row.name != "matrix";
+  const bool repeatable = is_placing(row) && row.name != "pivot" && row.name != "matrix";
   if (first != nullptr && !repeatable) {
     builder_.diagnostics_.error(place, fmt::format("'{}' is given twice", row.name), {},
                                 {{first->place, "first given here"}});
     return false;
   }
-  given_.push_back({&row, place});
+  if (given_.empty()) given_.reserve(8);
+  if (first == nullptr) given_.push_back({&row, place});
   return true;
 }
 
 bool BlockContext::apply_placing(const PropertyRow& row, const Argument& argument, const Place& place) {
-  const auto reject = [&](std::string message, std::string suggestion = {}) {
-    builder_.diagnostics_.error(place, std::move(message), std::move(suggestion));
-    return false;
-  };
   const bool is_matrix = row.name == "matrix";
-  if (given_.size() > 1) {
-    for (const Given& other : given_) {
-      const bool places = other.row->store == nullptr && other.row->type != PropertyType::kMaterial;
-      if (places && (other.row->name == "matrix") != is_matrix) {
-        return reject("'matrix' stands in place of all other transforms", "write either");
-      }
+  for (const Given& other : given_) {
+    if (is_placing(*other.row) && (other.row->name == "matrix") != is_matrix) {
+      builder_.diagnostics_.error(place, "'matrix' stands in place of all other transforms", "write either");
+      return false;
     }
   }
-  if (row.name == "translate") {
-    placing_.translation += vector_of(argument);
-  } else if (row.name == "rotate") {
-    const Vector3d turns = vector_of(argument);
-    placing_.linear = rotation_about({0, 0, 1}, turns.z) * rotation_about({0, 1, 0}, turns.y) *
-                      rotation_about({1, 0, 0}, turns.x) * placing_.linear;
-  } else if (row.name == "rotate_axis") {
-    const Vector3d axis = vector_of(argument);
-    if (glm::length(axis) == 0) return reject("the axis of 'rotate_axis' has no length");
-    placing_.linear = rotation_about(axis, argument.numbers[3]) * placing_.linear;
-  } else if (row.name == "scale") {
-    const Vector3d factors = vector_of(argument);
-    if (row_.placing == Placing::kRigid) {
-      return reject(fmt::format("'scale' means nothing to a {}", row_.name), "it has no size of its own");
-    }
-    if (factors.x == 0 || factors.y == 0 || factors.z == 0) {
-      return reject("'scale' must not be 0", "a thing without size can't be seen");
-    }
-    for (int column = 0; column < 3; ++column) placing_.linear[column] *= factors;
-  } else if (row.name == "pivot") {
-    placing_.pivot = vector_of(argument);
-  } else {
-    placing_.matrix = matrix_of(argument);
-    const glm::dmat3& m = placing_.matrix->linear;
-    const double volume = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
-    if (!(std::abs(glm::determinant(m)) > 1e-12 * volume)) {
-      return reject("'matrix' is flat: it can't be inverted", "the first three columns must span space");
-    }
+  if (row.name == "scale" && row_.placing == Placing::kRigid) {
+    builder_.diagnostics_.error(place, fmt::format("'scale' means nothing to a {}", row_.name),
+                                "it has no size of its own");
+    return false;
   }
-  return true;
+  const std::string problem = add_placing(row.name, argument, placing_);
+  if (!problem.empty()) builder_.diagnostics_.error(place, problem);
+  return problem.empty();
 }
 
 void BlockContext::report_unknown_property(Span name) {
@@ -134,12 +87,34 @@ void BlockContext::report_unknown_property(Span name) {
   std::string suggestion;
   if (!nearest.empty()) {
     suggestion = fmt::format("did you mean '{}'?", nearest);
+  } else if (row_.takes_material && is_property_of("material", word)) {
+    suggestion = fmt::format("that is the material's: material {{ {} … }}", word);
   } else if (row_.has_children && find_kind(word) != nullptr) {
     suggestion = fmt::format("a block needs braces: {} {{ … }}", word);
   } else {
     suggestion = fmt::format("it has {}", fmt::join(known, ", "));
   }
   builder_.diagnostics_.error(place(name), fmt::format("{} has no property '{}'", row_.name, word), suggestion);
+}
+
+void BlockContext::store(const PropertyRow& row, const Argument& argument, void* input) {
+  if (parameters_ == nullptr) return row.store(input, argument);
+  Value& value = (*parameters_)[static_cast<std::size_t>(&row - row_.properties.data())];
+  const auto& n = argument.numbers;
+  switch (row.type) {
+    case PropertyType::kVector: value.vector = {n[0], n[1], n[2]}; break;
+    case PropertyType::kColor: {
+      const bool is_display = argument.is_display;
+      value = Value::color({n[0], n[1], n[2]});
+      value.is_display = is_display;
+      break;
+    }
+    case PropertyType::kString:
+      value.text = builder_.evaluator_.names().text(builder_.evaluator_.names().id_of(argument.text));
+      break;
+    default: value.vector = {n[0], 0, 0}; break;
+  }
+  value.depends_on_time = argument.depends_on_time;
 }
 
 bool BlockContext::fill_item(const PropertyNode& property, void* input) {
@@ -149,19 +124,21 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
     return false;
   }
   if (!accept(*row, place(property.whole()))) return false;
-  const auto argument = read_argument(*row, property, *around_.source, builder_.diagnostics_);
+  const auto argument = read_argument(*row, property, *around_.source, around_.frame->values, builder_.evaluator_,
+                                      builder_.diagnostics_);
   if (!argument) return false;
+  depends_on_time_ = depends_on_time_ || argument->depends_on_time;
   if (row->type == PropertyType::kMaterial) {
     material_ = builder_.find_material(argument->text, place(property.values.front().span), around_);
     return material_.has_value();
   }
-  if (row->store == nullptr) return apply_placing(*row, *argument, place(property.whole()));
-  row->store(input, *argument);
+  if (is_placing(*row)) return apply_placing(*row, *argument, place(property.whole()));
+  store(*row, *argument, input);
   return true;
 }
 
 // A block inside this one: a material in place, a child, or a mistake.
-bool BlockContext::fill_block(const BlockNode& block, void*) {
+bool BlockContext::fill_block(const BlockNode& block) {
   const std::string_view word = around_.source->text(block.kind);
   const PropertyRow* row = find_property(row_, word);
   if (row != nullptr && row->type == PropertyType::kMaterial && block.words.empty()) {
@@ -177,7 +154,11 @@ bool BlockContext::fill_block(const BlockNode& block, void*) {
     return false;
   }
   if (row_.has_children) return true;  // its turn comes when this block is whole
-  if (find_kind(word) != nullptr || may_have_variant(word)) {
+  if (!node_.is_closed) {              // it may well stand behind this block, whose '}' is missing
+    builder_.build_block(block, around_);
+    return true;
+  }
+  if (find_kind(word) != nullptr || builder_.find_definition(block.kind_name, around_) != nullptr) {
     builder_.diagnostics_.error(place(block.header()), fmt::format("a {} can't hold a {}", row_.name, word),
                                 "put both into a group");
   } else {
@@ -186,47 +167,150 @@ bool BlockContext::fill_block(const BlockNode& block, void*) {
   return false;
 }
 
-bool fill(BlockContext& context, void* input) {
-  bool sound = true;
-  const Place header = context.header();
-  for (const ItemNode& item : context.node_.items) {
-    if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
-      sound = context.fill_item(**property, input) && sound;
-    } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
-      sound = context.fill_block(**block, input) && sound;
-    } else if (!context.row_.has_children) {
-      const Span keyword = std::get<const IncludeNode*>(item)->keyword;
-      context.builder_.diagnostics_.error(context.place(keyword),
-                                          fmt::format("a {} can't include a file", context.row_.name),
-                                          "'include' stands where a block may stand");
-      sound = false;
+// Whether a word is no property of this block but something that can be computed with.
+bool BlockContext::is_value_word(Span span) const {
+  const std::string_view word = around_.source->text(span);
+  if (find_property(row_, word) != nullptr) return false;
+  const NameId name = builder_.evaluator_.names().id_of(word);
+  return builder_.evaluator_.is_bound(name, around_.frame->values) || is_misspelt_number(word);
+}
+
+// `center x y z` was read as a property `center` with the value x, and a property `y` with the value z. Gathers what belongs
+// to the property at `index` and returns how many items that took. Where the last value was taken for the kind of a block,
+// the block that is left goes to `rest`.
+std::size_t BlockContext::merge_values(std::size_t index, std::vector<ValueNode>& values, BlockNode& rest) {
+  const auto& property = *std::get<const PropertyNode*>(node_.items[index]);
+  const PropertyRow* row = find_property(row_, around_.source->text(property.name));
+  const std::size_t most = row == nullptr ? 0 : most_numbers(row->type);
+  const auto as_value = [&](Span span) {
+    ValueNode value;
+    value.kind = ValueKind::kWord;
+    value.span = span;
+    value.name = builder_.evaluator_.names().id_of(around_.source->text(span));
+    return value;
+  };
+  std::size_t count = property.values.size(), taken = 1;
+  while (count > 0 && count < most && index + taken < node_.items.size()) {
+    const ItemNode& item = node_.items[index + taken];
+    const auto* next = std::get_if<const PropertyNode*>(&item);
+    if (next != nullptr && is_value_word((*next)->name)) {
+      if (values.empty()) values.assign(property.values.begin(), property.values.end());
+      values.push_back(as_value((*next)->name));
+      values.insert(values.end(), (*next)->values.begin(), (*next)->values.end());
+      count = values.size();
+      ++taken;
+      continue;
     }
+    const auto* block = std::get_if<const BlockNode*>(&item);
+    if (block != nullptr && !(*block)->words.empty() && is_value_word((*block)->kind)) {
+      if (values.empty()) values.assign(property.values.begin(), property.values.end());
+      values.push_back(as_value((*block)->kind));
+      rest = **block;
+      rest.kind = (*block)->words.front();
+      rest.kind_name = builder_.evaluator_.names().id_of(around_.source->text(rest.kind));
+      rest.words = (*block)->words.subspan(1);
+      return taken + 1;
+    }
+    break;
   }
-  for (const PropertyRow& row : context.row_.properties) {
-    if (row.required && !context.is_given(row.name)) {
-      context.builder_.diagnostics_.error(header, fmt::format("{} has no '{}'", context.row_.name, row.name),
-                                          fmt::format("{} {}", row.name, example_value(row)));
+  return taken;
+}
+
+bool BlockContext::fill_items(void* input) {
+  bool sound = true;
+  for (std::size_t i = 0; i < node_.items.size();) {
+    const ItemNode& item = node_.items[i];
+    std::size_t taken = 1;
+    if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
+      std::vector<ValueNode> values;
+      BlockNode rest;
+      taken = merge_values(i, values, rest);
+      PropertyNode merged = **property;
+      if (!values.empty()) merged.values = values;
+      sound = fill_item(merged, input) && sound;
+      if (rest.kind.end > 0) {
+        detached_.emplace_back(builder_.draft_.nodes.make(rest));
+        sound = fill_block(*std::get<const BlockNode*>(detached_.back())) && sound;
+      }
+    } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
+      sound = fill_block(**block) && sound;
+    } else if (const auto* let = std::get_if<const LetNode*>(&item)) {
+      builder_.build_let(**let, around_, let_base_);
+    } else if (!row_.has_children && node_.is_closed) {
       sound = false;
+      const Span keyword = std::visit(
+          [](const auto* node) -> Span {
+            if constexpr (requires { node->keyword; }) return node->keyword;
+            return {};
+          },
+          item);
+      builder_.diagnostics_.error(
+          place(keyword), fmt::format("'{}' can't stand in a {}", around_.source->text(keyword), row_.name),
+          "it stands where a block may stand; a single value can be chosen: (a > 0 ? 1 : 2)");
     }
+    i += taken;
   }
   return sound;
 }
 
-void BlockContext::build_children() {
-  Scope scope{around_.scope, {}};
-  Surroundings inside{around_.source, row_.name, placed(Vector3d(0)), material_.value_or(around_.material), &scope};
-  for (const ItemNode& item : node_.items) {
-    const auto* block = std::get_if<const BlockNode*>(&item);
-    const bool is_own_material =
-        block != nullptr && (*block)->words.empty() && around_.source->text((*block)->kind) == "material";
-    if (!std::holds_alternative<const PropertyNode*>(item) && !is_own_material) builder_.build_item(item, inside);
+bool BlockContext::check_required() {
+  std::vector<std::string> missing;
+  std::string example;
+  for (const PropertyRow& row : row_.properties) {
+    if (!row.required || is_given(row.name)) continue;
+    missing.push_back(fmt::format("'{}'", row.name));
+    if (example.empty()) example = fmt::format("{} {}", row.name, example_value(row));
   }
+  if (missing.empty()) return true;
+  builder_.diagnostics_.error(header(), fmt::format("{} has no {}", row_.name, fmt::join(missing, ", ")), example);
+  return false;
+}
+
+bool fill(BlockContext& context, void* input) {
+  Evaluator& evaluator = context.builder_.evaluator_;
+  context.let_base_ = evaluator.bindings().height();
+  bool sound = context.fill_items(input);
+  sound = context.check_required() && sound;
+  evaluator.bindings().pop_to(context.let_base_);
+  if (!sound && context.row_.has_children) context.build_children();  // for the mistakes in them
+  return sound;
+}
+
+void BlockContext::build_children() {
+  Surroundings inside = around_;
+  inside.kind = row_.name;
+  inside.to_world = placed(Vector3d(0));
+  inside.material = material_.value_or(around_.material);
+  inside.let_base = builder_.evaluator_.bindings().height();
+  inside.depends_on_time = around_.depends_on_time || depends_on_time_;
+  inside.is_unclosed = around_.is_unclosed || !node_.is_closed;
+  const auto is_child = [&](const ItemNode& item) {
+    if (std::holds_alternative<const PropertyNode*>(item)) return false;
+    const auto* block = std::get_if<const BlockNode*>(&item);
+    if (block == nullptr) return true;
+    const bool is_own_material = (*block)->words.empty() && around_.source->text((*block)->kind) == "material";
+    const bool is_detached = !(*block)->words.empty() && is_value_word((*block)->kind) && !detached_.empty();
+    return !is_own_material && !is_detached;
+  };
+  for (const ItemNode& item : node_.items) {
+    if (is_child(item)) builder_.build_item(item, inside);
+  }
+  for (const ItemNode& item : detached_) {
+    if (is_child(item)) builder_.build_item(item, inside);
+  }
+  builder_.evaluator_.bindings().pop_to(inside.let_base);
 }
 
 void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
+  builder_.note_shape(header());
   SceneDescription& scene = builder_.draft_.scene;
   scene.shapes.push_back(std::move(shape));
   scene.material_of.push_back(material_.value_or(around_.material));
+}
+
+void BlockContext::add_light(const Light& light) {
+  builder_.note_shape(header());
+  builder_.draft_.scene.lights.push_back(light);
 }
 
 std::uint32_t BlockContext::add_material(const Material& material) {

@@ -5,48 +5,104 @@
 #include <algorithm>
 
 #include "core/suggest.hpp"
-#include "scene_file/lexer.hpp"
 
 namespace raytracer::scene_file {
-namespace {
 
-constexpr std::size_t kDeepestInclude = 32;
-constexpr std::uint64_t kMostIncludes = 100'000;
-
-}  // namespace
-
-Builder::Builder(Files& files, Diagnostics& diagnostics) : files_(files), diagnostics_(diagnostics) {
+Builder::Builder(Files& files, const Limits& limits, const Moment& moment, Diagnostics& diagnostics)
+    : files_(files),
+      limits_(limits),
+      diagnostics_(diagnostics),
+      budget_(limits.steps),
+      evaluator_(files.names(), moment, budget_, diagnostics) {
   draft_.scene.materials.push_back(Material{});  // of shapes that name none
   material_uses_.push_back({{}, true});
 }
 
 void Builder::build(const SyntaxTree& tree) {
-  Scope scope;
-  const Surroundings top{tree.source, {}, {}, 0, &scope};
-  open_includes_.push_back(tree.source);
-  for (const ItemNode& item : tree.items) build_item(item, top);
-  open_includes_.pop_back();
+  const Frame frame;
+  NameTable names;
+  Surroundings top;
+  top.source = tree.source;
+  top.frame = &frame;
+  top.names = &names;
+  top.is_top = true;
+  build_items(tree.items, top);
+  evaluator_.bindings().pop_to(0);
+  definitions_.pop_to(0);
+  materials_.pop_to(0);
+}
+
+void Builder::build_items(std::span<const ItemNode> items, const Surroundings& around) {
+  for (const ItemNode& item : items) build_item(item, around);
 }
 
 void Builder::build_item(const ItemNode& item, const Surroundings& around) {
-  if (const auto* block = std::get_if<const BlockNode*>(&item)) return build_block(**block, around);
-  if (const auto* include = std::get_if<const IncludeNode*>(&item)) return build_include(**include, around);
-  const PropertyNode& property = *std::get<const PropertyNode*>(item);
+  if (halted_) return;
+  struct Dispatch {
+    Builder& builder;
+    const Surroundings& around;
+    void operator()(const BlockNode* node) const { builder.build_block(*node, around); }
+    void operator()(const PropertyNode* node) const { builder.build_stray_property(*node, around); }
+    void operator()(const IncludeNode* node) const { builder.build_include(*node, around); }
+    void operator()(const LetNode* node) const { builder.build_let(*node, around, around.let_base); }
+    void operator()(const ForNode* node) const { builder.build_for(*node, around); }
+    void operator()(const IfNode* node) const { builder.build_if(*node, around); }
+    void operator()(const DefineNode* node) const { builder.build_define(*node, around); }
+  };
+  std::visit(Dispatch{*this, around}, item);
+}
+
+void Builder::build_stray_property(const PropertyNode& property, const Surroundings& around) {
   const std::string_view word = around.source->text(property.name);
-  const bool is_kind = find_kind(word) != nullptr;
-  diagnostics_.error({around.source, property.name},
-                     is_kind ? fmt::format("'{}' needs braces", word)
-                             : fmt::format("'{}' stands outside of any block", word),
-                     is_kind ? fmt::format("{} {{ … }}", word) : "properties stand between the braces of a block");
+  const Place place{around.source, property.name};
+  constexpr std::string_view kStatements[] = {"include", "let", "for", "if", "define", "raytracer"};
+  const std::string_view nearest = nearest_word(word, kStatements);
+  if (word == "raytracer") {
+    diagnostics_.error(place, "the version of the language stands at the very beginning of a file");
+  } else if (!nearest.empty()) {
+    diagnostics_.error(place, fmt::format("'{}' stands outside of any block", word),
+                       fmt::format("did you mean '{}'?", nearest));
+  } else if (around.kind.empty() && around.is_top) {
+    diagnostics_.error(place, fmt::format("'{}' stands outside of any block", word),
+                       "properties stand between the braces of a block");
+  } else {
+    diagnostics_.error(place, fmt::format("'{}' stands where only blocks can stand", word),
+                       "properties stand directly between the braces of their block");
+  }
 }
 
 void Builder::report_unknown_kind(const BlockNode& block, const Surroundings& around) {
   const std::string_view word = around.source->text(block.kind);
   std::vector<std::string_view> known;
   for (const KindRow& row : all_kinds()) known.push_back(row.name);
+  for (std::size_t i = 0; i < definitions_.height(); ++i) {
+    if (around.frame->definitions.shows(i)) known.push_back(definitions_.at(i).value->name);
+  }
+  std::string_view nearest = nearest_word(word, known);
+  std::vector<Note> notes;
+  std::string suggestion = nearest.empty() ? "'raytracer help' lists all kinds" : fmt::format("did you mean '{}'?", nearest);
+  if (const SyntaxTree* tree = files_.tree_of(*around.source)) {
+    for (const ItemNode& item : tree->items) {
+      const auto* define = std::get_if<const DefineNode*>(&item);
+      if (define == nullptr || around.source->text((*define)->name_span) != word) continue;
+      notes.push_back({{around.source, (*define)->name_span}, "it is defined here, below its use"});
+      suggestion = "a name is defined before it is used";
+    }
+  }
+  diagnostics_.error({around.source, block.kind}, fmt::format("there is no kind of block '{}'", word), suggestion,
+                     notes);
+}
+
+void Builder::report_unknown_variant(const BlockNode& block, const Surroundings& around) {
+  const std::string_view kind = around.source->text(block.kind);
+  const std::string_view word = around.source->text(block.words[0]);
+  std::vector<std::string_view> known;
+  for (const KindRow& row : all_kinds()) {
+    if (row.name == kind && !row.variant.empty()) known.push_back(row.variant);
+  }
   const std::string_view nearest = nearest_word(word, known);
-  diagnostics_.error({around.source, block.kind}, fmt::format("there is no kind of block '{}'", word),
-                     nearest.empty() ? "'raytracer help' lists all kinds"
+  diagnostics_.error({around.source, block.words[0]}, fmt::format("there is no {} '{}'", kind, word),
+                     nearest.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
                                      : fmt::format("did you mean '{}'?", nearest));
 }
 
@@ -56,46 +112,41 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
   const auto word_at = [&](std::size_t i) {
     return i < block.words.size() ? around.source->text(block.words[i]) : std::string_view();
   };
-  if (find_kind(word) == nullptr) {
+  const KindRow* plain = find_kind(word);
+  if (plain == nullptr) {
     report_unknown_kind(block, around);
     return nullptr;
   }
-  if (!may_have_variant(word)) {
-    name = word_at(0);
-    return find_kind(word);
+  name = word_at(0);
+  if (!may_have_variant(word) || block.words.empty()) return plain;
+  if (const KindRow* variant = find_kind(word, word_at(0))) {
+    name = word_at(1);
+    return variant;
   }
-  const KindRow* variant = word_at(0).empty() ? nullptr : find_kind(word, word_at(0));
-  if (block.words.size() < 2 && variant == nullptr) {  // `light lamp { … }`
-    name = word_at(0);
-    return find_kind(word);
-  }
-  name = word_at(1);
-  if (variant != nullptr) return variant;
-  std::vector<std::string_view> known;
+  // `light lamp { … }` has a name; `light spto { … }` has a slip.
+  std::vector<std::string_view> variants;
   for (const KindRow& row : all_kinds()) {
-    if (row.name == word && !row.variant.empty()) known.push_back(row.variant);
+    if (row.name == word && !row.variant.empty()) variants.push_back(row.variant);
   }
-  const std::string_view nearest = nearest_word(word_at(0), known);
-  diagnostics_.error({around.source, block.words[0]}, fmt::format("there is no {} '{}'", word, word_at(0)),
-                     nearest.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
-                                     : fmt::format("did you mean '{}'?", nearest));
+  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty()) return plain;
+  report_unknown_variant(block, around);
   return nullptr;
 }
 
 bool Builder::check_standing(const KindRow& row, const BlockNode& block, const Surroundings& around) {
-  const Place place{around.source, block.header()};
-  if (row.block_class == BlockClass::kSetting && !around.kind.empty()) {
-    diagnostics_.error(place, fmt::format("a {} can't stand inside a {}", row.name, around.kind),
+  if (row.block_class != BlockClass::kSetting || around.kind.empty()) return true;
+  if (!around.is_unclosed) {
+    diagnostics_.error({around.source, block.header()},
+                       fmt::format("a {} can't stand inside a {}", row.name, around.kind),
                        fmt::format("'{}' stands at the top of the scene", row.name));
-    return false;
   }
-  return true;
+  return false;
 }
 
 // Names are unique within their kind; a setting without a name exists once.
-bool Builder::register_name(const KindRow& row, std::string_view name, const Place& place) {
+bool Builder::register_name(const KindRow& row, std::string_view name, const Place& place, const Surroundings& around) {
   if (name.empty() && row.block_class != BlockClass::kSetting) return true;
-  const auto [first, is_new] = names_.try_emplace(fmt::format("{} {}", row.name, name), place);
+  const auto [first, is_new] = around.names->try_emplace(fmt::format("{} {}", row.name, name), place);
   if (is_new) return true;
   diagnostics_.error(place,
                      name.empty() ? fmt::format("a second '{}'", row.name)
@@ -104,38 +155,50 @@ bool Builder::register_name(const KindRow& row, std::string_view name, const Pla
   return false;
 }
 
+std::shared_ptr<const Definition> Builder::find_definition(NameId name, const Surroundings& around) const {
+  const std::size_t position = definitions_.find(name, around.frame->definitions);
+  return position == decltype(definitions_)::npos ? nullptr : definitions_.at(position).value;
+}
+
 void Builder::build_block(const BlockNode& block, const Surroundings& around) {
+  if (!spend(1, {around.source, block.header()})) return;
+  if (definitions_.height() > 0) {
+    if (const auto definition = find_definition(block.kind_name, around)) return build_use(definition, block, around);
+  }
   std::string_view name;
   const KindRow* row = resolve_kind(block, around, name);
   if (row == nullptr || !check_standing(*row, block, around)) return;
-  const Place name_place{around.source, block.header()};
-  const bool is_material = row->block_class == BlockClass::kMaterial;
-  if (is_material && name.empty()) {
-    diagnostics_.error(name_place, "a material that stands alone needs a name", "material red { color red }");
+  if (row->block_class == BlockClass::kMaterial) return build_material(*row, block, name, around);
+  register_name(*row, name, {around.source, block.header()}, around);
+  BlockContext context(*this, *row, block, around, name);
+  row->build(context);
+}
+
+// A material with a name, for later.
+void Builder::build_material(const KindRow& row, const BlockNode& block, std::string_view name,
+                             const Surroundings& around) {
+  const Place place{around.source, block.header()};
+  if (name.empty()) {
+    diagnostics_.error(place, "a material that stands alone needs a name", "material red { color red }");
     return;
   }
-  bool is_new = true;
-  if (is_material) {
-    const auto local = around.scope->materials.find(name);
-    if (local != around.scope->materials.end()) {
-      diagnostics_.error(name_place, fmt::format("a second material of the name '{}'", name), {},
-                         {{material_uses_[local->second].place, "the first stands here"}});
-      is_new = false;
-    }
-  } else {
-    is_new = register_name(*row, name, name_place);
+  const NameId id = files_.names().id_of(name);
+  const std::size_t known = materials_.find(id, around.frame->materials);
+  const bool is_new = known == decltype(materials_)::npos || known < around.material_base;
+  if (!is_new) {
+    diagnostics_.error(place, fmt::format("a second material of the name '{}'", name), {},
+                       {{materials_.at(known).place, "the first stands here"}});
   }
   last_material_.reset();
-  BlockContext context(*this, *row, block, around, name);
+  BlockContext context(*this, row, block, around, name);
   const std::size_t errors_before = diagnostics_.error_count();
-  row->build(context);
-  if (!is_material || !is_new) return;
+  row.build(context);
+  if (!is_new) return;
   // A material with a mistake in it is known all the same: its uses are no mistakes.
   const std::uint32_t index = last_material_.value_or(0);
-  const bool failed = diagnostics_.error_count() > errors_before;
-  around.scope->materials.emplace(name, index);
+  materials_.push(id, index, place);
   material_uses_.resize(draft_.scene.materials.size());
-  if (!failed) material_uses_[index] = {name_place, false};
+  if (diagnostics_.error_count() == errors_before) material_uses_[index] = {place, false};
 }
 
 std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& block, const Surroundings& around) {
@@ -150,24 +213,25 @@ std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& blo
 
 std::optional<std::uint32_t> Builder::find_material(std::string_view name, const Place& place,
                                                     const Surroundings& around) {
-  std::vector<std::string_view> known;
-  for (const Scope* scope = around.scope; scope != nullptr; scope = scope->parent) {
-    const auto found = scope->materials.find(name);
-    if (found != scope->materials.end()) {
-      material_uses_[found->second].used = true;
-      return found->second;
-    }
-    for (const auto& [other, index] : scope->materials) known.push_back(other);
+  const std::size_t position = materials_.find(files_.names().id_of(name), around.frame->materials);
+  if (position != decltype(materials_)::npos) {
+    const std::uint32_t index = materials_.at(position).value;
+    material_uses_[index].used = true;
+    return index;
   }
-  std::ranges::sort(known);
+  std::vector<std::string_view> known;
+  for (std::size_t i = 0; i < materials_.height(); ++i) {
+    if (around.frame->materials.shows(i)) known.push_back(files_.names().text(materials_.at(i).name));
+  }
   const std::string_view nearest = nearest_word(name, known);
-  std::string suggestion = nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
+  const bool is_color = evaluator_.look_up(files_.names().id_of(name), around.frame->values).is_vector();
+  std::string suggestion = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
+                           : is_color       ? fmt::format("material {{ color {} }}", name)
+                                            : fmt::format("material {} {{ color red }}", name);
   std::vector<Note> notes;
   if (const BlockNode* later = find_later_material(name, place)) {
     notes.push_back({{place.source, later->header()}, "it is defined here, below its use"});
     suggestion = "a name is defined before it is used";
-  } else if (nearest.empty()) {
-    suggestion = fmt::format("material {} {{ color red }}", name);
   }
   diagnostics_.error(place, fmt::format("there is no material '{}'", name), suggestion, notes);
   return std::nullopt;
@@ -187,35 +251,36 @@ const BlockNode* Builder::find_later_material(std::string_view name, const Place
   return nullptr;
 }
 
-void Builder::build_include(const IncludeNode& include, const Surroundings& around) {
-  const Place place{around.source, include.file.span};
-  if (open_includes_.size() > kDeepestInclude) {
-    const bool itself = std::ranges::count(open_includes_, around.source) > 1;
-    diagnostics_.error(place, fmt::format("files include each other more than {} deep", kDeepestInclude),
-                       itself ? "the file includes itself" : "");
-    return;
-  }
-  if (++includes_done_ > kMostIncludes) {
-    if (includes_done_ == kMostIncludes + 1) {
-      diagnostics_.error(place, fmt::format("the scene includes more than {} files", kMostIncludes));
-    }
-    return;
-  }
-  const SyntaxTree* tree = files_.include(unquote(place.text()), place, diagnostics_);
-  if (tree == nullptr) return;
-  Surroundings inside = around;
-  inside.source = tree->source;
-  open_includes_.push_back(tree->source);
-  for (const ItemNode& item : tree->items) build_item(item, inside);
-  open_includes_.pop_back();
+bool Builder::spend(std::uint64_t steps, const Place& place) {
+  if (halted_) return false;
+  if (budget_.take(steps)) return true;
+  halt(place, fmt::format("the scene takes more than {} steps to evaluate", limits_.steps), "--limit steps=N allows more");
+  return false;
 }
 
-void Builder::warn_of_unused_materials() {
+void Builder::halt(const Place& place, std::string message, std::string suggestion) {
+  if (halted_) return;
+  halted_ = true;
+  diagnostics_.error(place, std::move(message), std::move(suggestion));
+}
+
+void Builder::note_shape(const Place& place) {
+  if (++shapes_made_ > limits_.shapes) {
+    halt(place, fmt::format("the scene makes more than {} shapes", limits_.shapes), "--limit shapes=N allows more");
+  }
+}
+
+void Builder::warn_of_unused_names(const SyntaxTree& main) {
   for (const MaterialUse& use : material_uses_) {
-    if (!use.used && use.place.source != nullptr) {
-      const std::string_view header = use.place.text();
-      diagnostics_.warning(use.place, fmt::format("'{}' is never used", header));
-    }
+    // A library of materials that is included is not meant to be used whole.
+    if (use.used || use.place.source != main.source) continue;
+    diagnostics_.warning(use.place, fmt::format("'{}' is never used", use.place.text()));
+  }
+  for (const ItemNode& item : main.items) {
+    const auto* let = std::get_if<const LetNode*>(&item);
+    if (let == nullptr || evaluator_.was_used(*let)) continue;
+    diagnostics_.warning({main.source, (*let)->name_span},
+                         fmt::format("'{}' is never used", main.source->text((*let)->name_span)));
   }
 }
 

@@ -1,9 +1,10 @@
-// From nodes to a scene: evaluates the blocks in order, checks every property against its row, and hands sound blocks
-// to the row's build function.
+// From nodes to a scene: runs the statements in order, checks every block's properties against the rows of its kind, and
+// hands sound blocks to the row's build function.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <memory>
-#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -11,13 +12,16 @@
 #include "raytracer/error.hpp"
 #include "scene_file/diagnostics.hpp"
 #include "scene_file/draft.hpp"
+#include "scene_file/evaluator.hpp"
 #include "scene_file/files.hpp"
+#include "scene_file/limits.hpp"
 #include "scene_file/schema.hpp"
 #include "scene_file/syntax.hpp"
 
 namespace raytracer::scene_file {
 
 class Builder;
+struct Definition;
 
 /// The transform words of one block, in the order written.
 struct PlacingWords {
@@ -36,19 +40,28 @@ struct Given {
   Place place;  ///< name and values
 };
 
-/// Names of materials, seen from where they stand to the end of their block.
-struct Scope {
-  Scope* parent = nullptr;
-  std::unordered_map<std::string_view, std::uint32_t> materials;
+/// What a piece of text sees of each stack of names.
+struct Frame {
+  Visibility values, definitions, materials;
 };
 
-/// What a block takes over from the blocks around it.
+/// Where the names of blocks were first given; they are unique within their kind.
+using NameTable = std::unordered_map<std::string, Place>;
+
+/// What a statement takes over from the text around it.
 struct Surroundings {
   const Source* source = nullptr;
   std::string_view kind;  ///< of the block around; empty at the top
   Transform to_world;
   std::uint32_t material = 0;
-  Scope* scope = nullptr;
+  const Frame* frame = nullptr;
+  NameTable* names = nullptr;
+  bool is_top = false;            ///< at the top of the scene, outside of all braces
+  std::size_t let_base = 0;       ///< bindings from here on belong to this block
+  std::size_t definition_base = 0;  ///< likewise definitions
+  std::size_t material_base = 0;  ///< likewise materials, to this turn of a loop or use of a definition
+  bool depends_on_time = false;   ///< whether any of it does
+  bool is_unclosed = false;       ///< the block around lacks its '}': what stands in it may belong elsewhere
 };
 
 /// One block on its way to become real. The rows' build functions see the builder through it.
@@ -75,9 +88,10 @@ class BlockContext {
     try {
       add_shape(make());
     } catch (const Error& problem) {
-      error({}, problem.what());
+      report_bad_shape(problem.what());
     }
   }
+  void add_light(const Light& light);
   void build_children();
   std::uint32_t add_material(const Material& material);
 
@@ -87,11 +101,17 @@ class BlockContext {
 
   const Given* given(std::string_view property) const;
   void add_shape(std::unique_ptr<Shape> shape);
+  void report_bad_shape(std::string_view problem);
+  bool fill_items(void* input);
   bool fill_item(const PropertyNode& property, void* input);
-  bool fill_block(const BlockNode& block, void* input);
+  bool fill_block(const BlockNode& block);
+  bool check_required();
   bool accept(const PropertyRow& row, const Place& place);
   bool apply_placing(const PropertyRow& row, const Argument& argument, const Place& place);
+  void store(const PropertyRow& row, const Argument& argument, void* input);
   void report_unknown_property(Span name);
+  bool is_value_word(Span span) const;
+  std::size_t merge_values(std::size_t index, std::vector<ValueNode>& values, BlockNode& rest);
   Place place(Span span) const { return {around_.source, span}; }
 
   Builder& builder_;
@@ -101,49 +121,105 @@ class BlockContext {
   std::string_view name_;
   PlacingWords placing_;
   std::optional<std::uint32_t> material_;
+  bool depends_on_time_ = false;
+  std::size_t let_base_ = 0;
   std::vector<Given> given_;
+  std::vector<ItemNode> detached_;               // blocks that were taken for the value of a property
+  std::vector<Value>* parameters_ = nullptr;     // of a use of a definition
+};
+
+/// `define`, with what its body sees.
+struct Definition {
+  const DefineNode* node = nullptr;
+  const Source* source = nullptr;
+  std::string name;
+  KindRow row;                     ///< its parameters as properties, so that a use is checked like a built-in block
+  std::vector<PropertyRow> parameters;
+  std::vector<Value> defaults;
+  Frame frame;                     ///< around it
+  std::array<std::size_t, 3> heights{};  ///< of the stacks of values, definitions and materials where it stands
 };
 
 class Builder {
  public:
-  Builder(Files& files, Diagnostics& diagnostics);
+  Builder(Files& files, const Limits& limits, const Moment& moment, Diagnostics& diagnostics);
+
+  /// Top-level lets that the caller replaces: by name, as values.
+  /// A string keeps the text as it was given, whatever else it could be read as.
+  void replace_let(NameId name, const Value& value, std::string_view text) { replaced_lets_[name] = {value, text}; }
 
   /// Evaluates a whole scene.
   void build(const SyntaxTree& tree);
 
   SceneDraft& draft() { return draft_; }
   Diagnostics& diagnostics() { return diagnostics_; }
-  void warn_of_unused_materials();
+  Evaluator& evaluator() { return evaluator_; }
+  /// About materials, lets and definitions of `main` that nothing uses.
+  void warn_of_unused_names(const SyntaxTree& main);
+  /// Top-level lets in the order in which they were met.
+  struct TopLevelLet {
+    std::string name;
+    Value value;
+    bool is_replaced = false;
+  };
+  const std::vector<TopLevelLet>& top_level_lets() const { return top_level_lets_; }
 
  private:
   friend class BlockContext;
   friend bool fill(BlockContext& context, void* input);
 
-  /// Where a name was first given, for names that must be unique within their kind.
-  using NameTable = std::unordered_map<std::string, Place>;
+  struct Replacement {
+    Value value;
+    std::string_view text;
+  };
   struct MaterialUse {
     Place place;  // of the name; no source for unnamed ones
     bool used = false;
   };
 
+  void build_items(std::span<const ItemNode> items, const Surroundings& around);
   void build_item(const ItemNode& item, const Surroundings& around);
+  void build_stray_property(const PropertyNode& property, const Surroundings& around);
   void build_block(const BlockNode& block, const Surroundings& around);
+  void build_material(const KindRow& row, const BlockNode& block, std::string_view name, const Surroundings& around);
   void build_include(const IncludeNode& include, const Surroundings& around);
+  void build_let(const LetNode& let, const Surroundings& around, std::size_t let_base);
+  void build_for(const ForNode& loop, const Surroundings& around);
+  Value replaced(const Replacement& replacement, const Value& original, const Place& place) const;
+  void build_if(const IfNode& choice, const Surroundings& around);
+  void build_define(const DefineNode& define, const Surroundings& around);
+  void build_use(const std::shared_ptr<const Definition>& definition, const BlockNode& block, const Surroundings& around);
+  Value parameter_default(const ParameterNode& parameter, const Surroundings& around);
+  std::shared_ptr<const Definition> find_definition(NameId name, const Surroundings& around) const;
+
   const KindRow* resolve_kind(const BlockNode& block, const Surroundings& around, std::string_view& name);
   void report_unknown_kind(const BlockNode& block, const Surroundings& around);
+  void report_unknown_variant(const BlockNode& block, const Surroundings& around);
   bool check_standing(const KindRow& row, const BlockNode& block, const Surroundings& around);
-  bool register_name(const KindRow& row, std::string_view name, const Place& place);
+  bool register_name(const KindRow& row, std::string_view name, const Place& place, const Surroundings& around);
   std::optional<std::uint32_t> find_material(std::string_view name, const Place& place, const Surroundings& around);
   const BlockNode* find_later_material(std::string_view name, const Place& place) const;
   std::optional<std::uint32_t> build_inline_material(const BlockNode& block, const Surroundings& around);
 
+  /// Takes the work; reports once and stops all evaluation when there was too much of it.
+  bool spend(std::uint64_t steps, const Place& place);
+  void halt(const Place& place, std::string message, std::string suggestion = {});
+  void note_shape(const Place& place);
+
   Files& files_;
+  Limits limits_;
   Diagnostics& diagnostics_;
+  Budget budget_;
+  Evaluator evaluator_;
+  Bindings<std::shared_ptr<const Definition>> definitions_;
+  Bindings<std::uint32_t> materials_;
   SceneDraft draft_;
-  NameTable names_;
   std::vector<MaterialUse> material_uses_;
-  std::vector<const Source*> open_includes_;
-  std::uint64_t includes_done_ = 0;
+  std::unordered_map<NameId, Replacement> replaced_lets_;
+  std::vector<TopLevelLet> top_level_lets_;
+  std::size_t include_depth_ = 0, use_depth_ = 0;
+  std::uint64_t shapes_made_ = 0;
+  bool halted_ = false;
   std::optional<std::uint32_t> last_material_;
 };
 

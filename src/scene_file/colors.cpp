@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 
 namespace raytracer::scene_file {
@@ -61,6 +62,20 @@ Vector3d from_bytes(std::uint32_t rgb) {
   return Vector3d((rgb >> 16U) & 0xFFU, (rgb >> 8U) & 0xFFU, rgb & 0xFFU) / 255.0;
 }
 
+// A Gaussian with another width on each side (Wyman et al. 2013, equation 1).
+double lobe(double x, double middle, double width_below, double width_above) {
+  const double d = (x - middle) / (x < middle ? width_below : width_above);
+  return std::exp(-0.5 * d * d);
+}
+
+// The CIE 1931 colour matching functions at a wavelength in nanometres (Wyman et al. 2013, table 1).
+Vector3d matching_functions(double nm) {
+  return {1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) -
+              0.065 * lobe(nm, 501.1, 20.4, 26.2),
+          0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1),
+          1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
+}
+
 }  // namespace
 
 std::optional<Vector3d> named_color(std::string_view name) {
@@ -76,6 +91,31 @@ std::span<const std::string_view> color_names() {
     return all;
   }();
   return names;
+}
+
+Vector3d hsv(double hue_degrees, double saturation, double value) {
+  const double sector = (hue_degrees - 360 * std::floor(hue_degrees / 360)) / 60;
+  const auto channel = [&](double turn) {
+    const double k = std::fmod(turn + sector, 6);
+    return value - value * saturation * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+  };
+  return {channel(5), channel(3), channel(1)};
+}
+
+Vector3d black_body_color(double kelvin) {
+  constexpr double kSecondRadiation = 1.4387769e7;  // hc/k in nanometre kelvin
+  Vector3d xyz(0);
+  for (int nm = 360; nm <= 830; nm += 5) {
+    const double exponent = kSecondRadiation / (nm * kelvin);
+    const double radiance = std::pow(nm / 560.0, -5) / std::expm1(exponent);
+    xyz += radiance * matching_functions(nm);
+  }
+  // IEC 61966-2-1: XYZ to linear Rec.709 with a white of D65.
+  const Vector3d rgb = {3.2406 * xyz.x - 1.5372 * xyz.y - 0.4986 * xyz.z,
+                        -0.9689 * xyz.x + 1.8758 * xyz.y + 0.0415 * xyz.z,
+                        0.0557 * xyz.x - 0.2040 * xyz.y + 1.0570 * xyz.z};
+  const Vector3d in_gamut = glm::max(rgb, Vector3d(0));
+  return in_gamut / std::max({in_gamut.x, in_gamut.y, in_gamut.z});
 }
 
 Vector3d hexadecimal_color(std::string_view text) {

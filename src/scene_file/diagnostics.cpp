@@ -42,10 +42,15 @@ void sort_by_place(std::vector<Diagnostic>& messages) {
 
 void Diagnostics::error(const Place& place, std::string message, std::string suggestion,
                         const std::vector<Note>& notes) {
+  if (muted_ || !error_places_.emplace(place.source, place.span.begin, place.span.end).second) return;
   if (++errors_ > kMostErrors) return;
   Diagnostic d = make_diagnostic(Severity::kError, place, std::move(message), std::move(suggestion));
   for (const Note& note : notes) {
     d.notes.push_back(make_diagnostic(Severity::kError, note.place, note.message, {}));
+  }
+  constexpr std::size_t kMostUses = 4;  // the innermost ones; deeper chains are recursions
+  for (std::size_t i = 0; i < std::min(kMostUses, used_from_.size()); ++i) {
+    d.notes.push_back(make_diagnostic(Severity::kError, used_from_[used_from_.size() - 1 - i], "used from here", {}));
   }
   messages_.push_back(std::move(d));
 }

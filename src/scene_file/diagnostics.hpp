@@ -1,7 +1,9 @@
 // Collects what is to be told about a scene, until it is told.
 #pragma once
 
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "raytracer/scene_file.hpp"
@@ -15,7 +17,8 @@ struct Note {
   std::string message;
 };
 
-/// The messages of one load. A scene can hold more mistakes than anybody reads: past kMostErrors they are only
+/// The messages of one load. A place has one error at most: a slip inside a loop or a definition is one slip, however often it
+/// is run through. A scene can hold more mistakes than anybody reads: past kMostErrors they are only
 /// counted.
 class Diagnostics {
  public:
@@ -27,6 +30,23 @@ class Diagnostics {
   /// About the scene as a whole.
   void warning(const std::string& file, std::string message, std::string suggestion = {});
 
+  /// While one lives, every error names the place that its text was used from: an include, a use of a definition.
+  class UsedFrom {
+   public:
+    UsedFrom(Diagnostics& diagnostics, const Place& place) : diagnostics_(diagnostics) {
+      diagnostics_.used_from_.push_back(place);
+    }
+    ~UsedFrom() { diagnostics_.used_from_.pop_back(); }
+    UsedFrom(const UsedFrom&) = delete;
+    UsedFrom& operator=(const UsedFrom&) = delete;
+
+   private:
+    Diagnostics& diagnostics_;
+  };
+
+  /// While muted, errors are dropped: what follows from a mistake that has been told is none.
+  void mute(bool muted) { muted_ = muted; }
+
   bool has_errors() const { return errors_ > 0; }
   std::size_t error_count() const { return errors_; }
   /// The messages from the top of the text to its end, and how many more there were; leaves the collector empty.
@@ -35,6 +55,9 @@ class Diagnostics {
  private:
   std::vector<Diagnostic> messages_;
   std::size_t errors_ = 0;
+  bool muted_ = false;
+  std::vector<Place> used_from_;
+  std::set<std::tuple<const Source*, std::uint32_t, std::uint32_t>> error_places_;
 };
 
 }  // namespace raytracer::scene_file

@@ -9,6 +9,7 @@
 #include "raytracer/scene.hpp"
 #include "scene_file/schema.hpp"
 #include "scene_file/source.hpp"
+#include "scene_file/syntax.hpp"
 
 namespace raytracer::scene_file {
 
@@ -18,6 +19,7 @@ struct CameraDraft {
   Place place;
   Vector3d position{0}, look_at{0}, up{0, 1, 0};
   std::optional<double> fov_degrees, vertical_fov_degrees;  ///< at most one of them
+  double shutter = 0;                                       ///< the share of a frame's time that it is open
 };
 
 enum class Method : std::uint8_t { kClassic };
@@ -36,6 +38,8 @@ struct SceneDraft {
   std::array<int, 2> image_size{960, 540};
   std::vector<CameraDraft> cameras;
   RenderDraft render;
+  double duration = 0, fps = 24;  ///< of `animation`
+  Arena nodes;                    ///< of nodes put together while building
 };
 
 }  // namespace raytracer::scene_file

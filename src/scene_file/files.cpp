@@ -34,9 +34,13 @@ class OpenFile {
   int descriptor_;
 };
 
+// Absolute and without links as far as it exists; empty where the system can't say (a name too long).
 std::string canonical(const std::string& path) {
-  std::error_code ignored;
-  return fs::weakly_canonical(path.empty() ? "." : path, ignored).string();
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path.empty() ? "." : path, error);
+  if (error) return {};
+  const fs::path resolved = fs::weakly_canonical(absolute, error);
+  return error ? std::string() : resolved.string();
 }
 
 }  // namespace
@@ -92,7 +96,7 @@ bool Files::is_allowed(const std::string& canonical_path) const {
 const SyntaxTree* Files::add(std::string name, std::string path, std::string text, Diagnostics& diagnostics) {
   File file;
   file.source = std::make_unique<Source>(std::move(name), std::move(path), std::move(text));
-  file.tree = parse(*file.source, diagnostics);
+  file.tree = parse(*file.source, names_, diagnostics);
   files_.push_back(std::move(file));
   return files_.back().tree.get();
 }
@@ -108,6 +112,10 @@ const SyntaxTree* Files::add_main(std::string name, std::string path, std::strin
 const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {
   const fs::path folder = fs::path(from.source->path()).parent_path();
   const std::string path = canonical((folder / file).string());
+  if (path.empty()) {
+    diagnostics.error(from, "this can't be the name of a file", "it is too long, or can't be looked up");
+    return nullptr;
+  }
   const auto known = by_path_.find(path);
   if (known != by_path_.end()) return known->second;
   if (!is_allowed(path)) {

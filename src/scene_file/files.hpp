@@ -32,6 +32,7 @@ class Files {
   const SyntaxTree* tree_of(const Source& source) const;
 
   std::vector<std::string> read_paths() const;
+  Names& names() { return names_; }
 
  private:
   struct File {
@@ -43,6 +44,7 @@ class Files {
   const SyntaxTree* add(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
   std::vector<std::string> allowed_folders_;
+  Names names_;
   std::vector<File> files_;
   std::unordered_map<std::string, const SyntaxTree*> by_path_;
 };

@@ -28,6 +28,7 @@ struct CameraInput {
   std::optional<Vector3d> look_at;
   Vector3d up{0, 1, 0};
   std::optional<double> fov, vertical_fov;
+  double shutter = 0;
 };
 constexpr PropertyRow kCamera[] = {
     property<&CameraInput::position>("position", "Where the eye is.").in(kLength),
@@ -44,6 +45,8 @@ constexpr PropertyRow kCamera[] = {
         .in(kDegrees)
         .within(kFieldOfView)
         .or_else("follows from fov"),
+    property<&CameraInput::shutter>("shutter", "The share of a frame's time that it is open: blurs what moves.")
+        .within(kShare),
 };
 void build_camera(const CameraInput& in, BlockContext& block) {
   if (in.fov && in.vertical_fov) {
@@ -58,6 +61,7 @@ void build_camera(const CameraInput& in, BlockContext& block) {
   camera.up = world.vector(in.up);
   camera.fov_degrees = in.fov;
   camera.vertical_fov_degrees = in.vertical_fov;
+  camera.shutter = in.shutter;
   const Vector3d view = camera.look_at - camera.position;
   if (glm::length(view) == 0) {
     return block.error("look_at", "the camera looks at the point where it stands",
@@ -112,6 +116,18 @@ void build_background(const BackgroundInput& in, BlockContext& block) {
   block.draft().scene.background = Color3f(in.color.rgb);
 }
 
+struct AnimationInput {
+  double duration = 0, fps = 24;
+};
+constexpr PropertyRow kAnimation[] = {
+    property<&AnimationInput::duration>("duration", "How long it lasts.").in("seconds").within({0, 1e6, true}).must_be_given(),
+    property<&AnimationInput::fps>("fps", "Frames per second.").within({0.001, 1000}),
+};
+void build_animation(const AnimationInput& in, BlockContext& block) {
+  block.draft().duration = in.duration;
+  block.draft().fps = in.fps;
+}
+
 struct LightInput {
   Vector3d position{0};
   ColorValue color{Vector3d(1)};
@@ -162,7 +178,7 @@ Light make_light(const LightInput& in, Light::Kind kind) {
 void build_point_light(const LightInput& in, BlockContext& block) {
   Light light = make_light(in, Light::Kind::kPoint);
   light.position = Vector3f(block.placed(in.position).point(in.position));
-  block.draft().scene.lights.push_back(light);
+  block.add_light(light);
 }
 
 // The way a light points, in the world; nothing where that is no direction, which has then been reported.
@@ -183,7 +199,7 @@ void build_directional_light(const LightInput& in, BlockContext& block) {
   const std::optional<Vector3f> direction = world_direction(in, block);
   if (!direction) return;
   light.direction = *direction;
-  block.draft().scene.lights.push_back(light);
+  block.add_light(light);
 }
 
 void build_spot_light(const LightInput& in, BlockContext& block) {
@@ -198,7 +214,7 @@ void build_spot_light(const LightInput& in, BlockContext& block) {
   const double half_angle = glm::radians(in.angle / 2);
   light.cos_outer = static_cast<float>(std::cos(half_angle));
   light.cos_inner = static_cast<float>(std::cos(half_angle * (1 - in.soft_edge)));
-  block.draft().scene.lights.push_back(light);
+  block.add_light(light);
 }
 
 struct MaterialInput {
@@ -240,6 +256,7 @@ std::span<const KindRow> setting_kinds() {
               Placing::kRigid),
       setting(kind<RenderInput, build_render>("render", "How the picture is computed.", kRender)),
       setting(kind<BackgroundInput, build_background>("background", "What is behind everything.", kBackground)),
+      setting(kind<AnimationInput, build_animation>("animation", "How much time there is.", kAnimation)),
   };
   return rows;
 }

@@ -11,7 +11,9 @@ namespace {
 // <cctype> follows the locale; scene files do not.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_word_character(char c) { return is_letter(c) || is_digit(c); }
+// No word of the language has letters beyond ASCII; they are read as part of one so that the message names the whole word.
+bool is_foreign(char c) { return static_cast<unsigned char>(c) >= 0x80; }
+bool is_word_character(char c) { return is_letter(c) || is_digit(c) || is_foreign(c); }
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 // Of a number that no double holds: whether it is too small rather than too large.
 bool is_tiny(std::string_view number) {
@@ -19,7 +21,6 @@ bool is_tiny(std::string_view number) {
   if (exponent != std::string_view::npos) return number[exponent + 1] == '-';
   return number.find_first_of("123456789") > number.find('.');
 }
-bool is_plain_ascii(char c) { return c > ' ' && c < 0x7F; }
 
 }  // namespace
 
@@ -84,7 +85,8 @@ Token Lexer::next(LexMode mode) {
   const std::uint32_t begin = position_;
   if (position_ >= text_.size()) return token(TokenType::kEnd, begin);
   const char c = text_[position_];
-  if (is_letter(c)) return lex_word();
+  if (is_foreign(c) && starts_with_lookalike()) return lex_lookalike();
+  if (is_letter(c) || is_foreign(c)) return lex_word();
   const bool is_sign = c == '+' || c == '-';
   if (starts_number(position_) ||
       (mode == LexMode::kValues && is_sign && starts_number(position_ + 1))) {
@@ -122,8 +124,13 @@ Token Lexer::lex_number() {
   }
   if (is_word_character(at(position_)) || (at(position_) == '.' && !is_letter(at(position_ + 1)))) {
     while (is_word_character(at(position_)) || at(position_) == '.') ++position_;
-    error({begin, position_}, fmt::format("'{}' is not a number", source_->text({begin, position_})),
-          "numbers look like 1, -0.5 or 1.5e-3");
+    const std::string_view written = source_->text({begin, position_});
+    const std::size_t cross = written.find('x');
+    const bool is_size = cross != std::string_view::npos && cross > 0 && is_digit(written[cross - 1]) && cross + 1 < written.size();
+    error({begin, position_}, fmt::format("'{}' is not a number", written),
+          is_size ? fmt::format("two numbers have a space between them: {} {}", written.substr(0, cross),
+                                written.substr(cross + 1))
+                  : "numbers look like 1, -0.5 or 1.5e-3");
     return token(TokenType::kBad, begin);
   }
   Token result = token(TokenType::kNumber, begin);
@@ -163,7 +170,7 @@ Token Lexer::lex_color() {
   const std::uint32_t digits = position_ - begin - 1;
   if (!all_hexadecimal || (digits != 3 && digits != 6)) {
     error({begin, position_}, fmt::format("'{}' is not a colour", source_->text({begin, position_})),
-          "colours look like #f80 or #ff8800");
+          digits == 0 ? "comments begin with //" : "colours look like #f80 or #ff8800");
     return token(TokenType::kBad, begin);
   }
   return token(TokenType::kColor, begin);
@@ -172,6 +179,11 @@ Token Lexer::lex_color() {
 Token Lexer::lex_operator() {
   const std::uint32_t begin = position_;
   constexpr std::string_view kSingle = "+-*/%^<>=!?:,.";
+  if (text_.substr(position_, 2) == "*/") {
+    position_ += 2;
+    error({begin, position_}, "this '*/' closes no comment");
+    return token(TokenType::kBad, begin);
+  }
   constexpr std::string_view kTwins[] = {"<=", ">=", "==", "!="};
   for (const std::string_view twin : kTwins) {
     if (text_.substr(position_, 2) == twin) {
@@ -179,24 +191,49 @@ Token Lexer::lex_operator() {
       return token(TokenType::kOperator, begin);
     }
   }
-  if (kSingle.find(text_[position_]) == std::string_view::npos) return unexpected_characters();
+  if (kSingle.find(text_[position_]) == std::string_view::npos) return unexpected_character();
   ++position_;
   return token(TokenType::kOperator, begin);
 }
 
-// A run of characters that mean nothing is one mistake.
-Token Lexer::unexpected_characters() {
-  const std::uint32_t begin = position_;
-  const bool ascii = is_plain_ascii(text_[begin]);
-  do {
-    ++position_;
-  } while (!ascii && position_ < text_.size() && !is_plain_ascii(text_[position_]) && !is_blank(text_[position_]));
+Token Lexer::unexpected_character() {
+  const std::uint32_t begin = position_++;
   const auto byte = static_cast<unsigned char>(text_[begin]);
   if (byte < 0x20 || byte == 0x7F) {
     error({begin, position_}, fmt::format("unexpected control character (byte {:#04x})", byte),
           "a scene is plain text in UTF-8");
   } else {
-    error({begin, position_}, fmt::format("unexpected '{}'", source_->text({begin, position_})));
+    error({begin, position_}, fmt::format("unexpected '{}'", text_[begin]),
+          text_[begin] == '[' || text_[begin] == ']' ? "a vector is three numbers: 0 1 0" : "");
+  }
+  return token(TokenType::kBad, begin);
+}
+
+// Signs that word processors put where a keyboard has " and -.
+bool Lexer::starts_with_lookalike() const {
+  const std::string_view rest = text_.substr(position_, 3);
+  return rest == "\xE2\x80\x9C" || rest == "\xE2\x80\x9D" || rest == "\xE2\x80\x9E" || rest == "\xE2\x88\x92" ||
+         rest == "\xE2\x80\x93";
+}
+
+Token Lexer::lex_lookalike() {
+  const std::uint32_t begin = position_;
+  const std::string_view sign = text_.substr(position_, 3);
+  const bool is_minus = sign == "\xE2\x88\x92" || sign == "\xE2\x80\x93";
+  position_ += 3;
+  if (is_minus) {
+    while (is_word_character(at(position_)) || at(position_) == '.') ++position_;
+    error({begin, begin + 3}, fmt::format("'{}' is not a minus sign", sign), "write '-'");
+  } else {
+    while (position_ < text_.size() && text_[position_] != '\n' && text_[position_] != '\r') {
+      const std::string_view here = text_.substr(position_, 3);
+      ++position_;
+      if (here == "\xE2\x80\x9C" || here == "\xE2\x80\x9D") {
+        position_ += 2;
+        break;
+      }
+    }
+    error({begin, begin + 3}, fmt::format("'{}' is not a quotation mark", sign), "strings stand between \"…\"");
   }
   return token(TokenType::kBad, begin);
 }

@@ -52,7 +52,9 @@ class Lexer {
   Token lex_string();
   Token lex_color();
   Token lex_operator();
-  Token unexpected_characters();
+  Token unexpected_character();
+  bool starts_with_lookalike() const;
+  Token lex_lookalike();
   Token token(TokenType type, std::uint32_t begin) const { return {type, {begin, position_}, 0}; }
   char at(std::uint32_t offset) const { return offset < text_.size() ? text_[offset] : '\0'; }
   bool starts_number(std::uint32_t offset) const;

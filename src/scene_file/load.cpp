@@ -1,6 +1,7 @@
 // The three stages joined: text, nodes, scene.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "scene_file/builder.hpp"
 #include "scene_file/files.hpp"
 #include "scene_file/finish.hpp"
+#include "scene_file/settings.hpp"
 
 namespace raytracer {
 namespace {
@@ -17,43 +19,91 @@ namespace {
 using scene_file::Builder;
 using scene_file::Diagnostics;
 using scene_file::Files;
+using scene_file::Moment;
 
-// One scene for all times: built from its description when it is first asked for.
-SceneAt scene_once(SceneDescription description) {
-  struct Once {
-    SceneDescription description;
-    std::shared_ptr<const Scene> scene;
-  };
-  auto once = std::make_shared<Once>();
-  once->description = std::move(description);
-  return [once](double) {
-    if (!once->scene) once->scene = std::make_shared<const Scene>(std::move(once->description));
-    return once->scene;
-  };
-}
+// What evaluating a scene once more, for another time, needs.
+struct SceneText {
+  LoadOptions options;
+  std::string name;
+  std::unique_ptr<Files> files;
+  const scene_file::SyntaxTree* tree = nullptr;
+  double fps = 24;
+};
+
+// The scene at the times that it is asked for; the first one has been evaluated already.
+class ScenesOverTime {
+ public:
+  ScenesOverTime(std::shared_ptr<SceneText> text, SceneDescription first, bool depends_on_time)
+      : text_(std::move(text)), first_(std::move(first)), depends_on_time_(depends_on_time) {}
+
+  std::shared_ptr<const Scene> at(double time) {
+    if (!depends_on_time_ || time == 0) {
+      if (!scene_) scene_ = std::make_shared<const Scene>(std::move(first_));
+      return scene_;
+    }
+    Diagnostics diagnostics;
+    const Moment moment{time, static_cast<int>(std::floor(time * text_->fps + 1e-6)) + 1};
+    Builder builder(*text_->files, text_->options.limits, moment, diagnostics);
+    scene_file::apply_settings(text_->options.settings, *text_->files, builder);
+    builder.build(*text_->tree);
+    if (diagnostics.has_errors()) {
+      std::string all;
+      for (const Diagnostic& diagnostic : diagnostics.take()) all += to_text(diagnostic) + '\n';
+      throw Error(ErrorKind::kScene, fmt::format("the scene is wrong at t = {}:\n{}", time, all));
+    }
+    scene_file::finish(builder.draft(), text_->options, text_->name, diagnostics);
+    return std::make_shared<const Scene>(std::move(builder.draft().scene));
+  }
+
+ private:
+  std::shared_ptr<SceneText> text_;
+  SceneDescription first_;
+  bool depends_on_time_;
+  std::shared_ptr<const Scene> scene_;
+};
 
 LoadedScene load(std::string text, const std::string& name, const std::string& path, const LoadOptions& options) {
   // The folder of a bare file name is the current one.
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  Files files(folder.empty() ? "." : folder, options.allowed_folders);
+  const auto scene_text = std::make_shared<SceneText>();
+  scene_text->options = options;
+  scene_text->name = name;
+  scene_text->files = std::make_unique<Files>(folder.empty() ? "." : folder, options.allowed_folders);
+  Files& files = *scene_text->files;
   Diagnostics diagnostics;
   LoadedScene loaded;
-  Builder builder(files, diagnostics);
-  builder.build(*files.add_main(name, path, std::move(text), diagnostics));
+  scene_text->tree = files.add_main(name, path, std::move(text), diagnostics);
+  Builder builder(files, options.limits, Moment{}, diagnostics);
+  scene_file::apply_settings(options.settings, files, builder);
+  builder.build(*scene_text->tree);
   loaded.files_read = files.read_paths();
   // No warning follows from an error.
   if (!diagnostics.has_errors()) {
-    builder.warn_of_unused_materials();
+    scene_file::check_settings(options.settings, builder);
+    builder.warn_of_unused_names(*scene_text->tree);
     scene_file::SceneDraft& draft = builder.draft();
     loaded.settings = scene_file::finish(draft, options, name, diagnostics);
     loaded.shapes = draft.scene.shapes.size();
-    loaded.scene_at = scene_once(std::move(draft.scene));
+    loaded.animation = {draft.duration, draft.fps};
+    scene_text->fps = draft.fps;
+    loaded.depends_on_time = builder.evaluator().uses_time();
+    for (const Builder::TopLevelLet& let : builder.top_level_lets()) {
+      loaded.parameters.push_back({let.name, scene_file::to_source(let.value)});
+    }
+    const auto scenes =
+        std::make_shared<ScenesOverTime>(scene_text, std::move(draft.scene), loaded.depends_on_time);
+    loaded.scene_at = [scenes](double time) { return scenes->at(time); };
   }
   loaded.diagnostics = diagnostics.take();
   return loaded;
 }
 
 }  // namespace
+
+int Animation::frames() const {
+  // A frame that begins within the duration belongs to it; 1e-9 forgives the rounding of 0.1 * 30.
+  return duration > 0 ? std::max(1, static_cast<int>(std::ceil(duration * fps - 1e-9))) : 1;
+}
 
 LoadedScene load_scene_file(const std::string& path, const LoadOptions& options) {
   const bool is_standard_input = path == "-";

@@ -1,18 +1,17 @@
-// A recursive-descent parser. The grammar needs no more of the vocabulary than this: `include` is a statement, and a
-// `light` may carry two words. A bare word directly behind a property's name is its value; any other bare word
-// begins the next property or block:
-//
-//   item     = "include" string | block | property
-//   block    = word [word [word]] "{" { item } "}"
-//   property = word (word { number | string | colour } | { number | string | colour })
+// A recursive-descent parser; the grammar stands in docs/scene-language.md. It needs no more of the vocabulary than that
+// a `light` may carry two words, and it uses the properties' names only to tell what was forgotten. A bare word directly
+// behind a property's name is its value, any other begins the next property or block; where that is not what was meant
+// (`center x y z` with three names), the builder, which knows what a property takes, puts the pieces together.
 #include "scene_file/parser.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "scene_file/lexer.hpp"
+#include "scene_file/expression_parser.hpp"
+#include "scene_file/functions.hpp"
 #include "scene_file/schema.hpp"
+#include "scene_file/token_reader.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -21,19 +20,15 @@ constexpr int kLanguageVersion = 1;
 
 class Parser {
  public:
-  Parser(const Source& source, Diagnostics& diagnostics)
-      : source_(source),
-        diagnostics_(diagnostics),
-        lexer_(source, diagnostics),
-        tree_(std::make_unique<SyntaxTree>()) {
+  Parser(const Source& source, Names& names, Diagnostics& diagnostics)
+      : tree_(std::make_unique<SyntaxTree>()), tokens_(source, names, tree_->arena, diagnostics) {
     tree_->source = &source;
-    current_ = lexer_.next(LexMode::kValues);
   }
 
   std::unique_ptr<SyntaxTree> parse() {
     parse_version();
     tree_->items = parse_items({});
-    tree_->comments = lexer_.comments();
+    tree_->comments = tokens_.comments();
     return std::move(tree_);
   }
 
@@ -41,60 +36,63 @@ class Parser {
   // The kind of the block around an item; empty at the top of a file.
   using Context = std::string_view;
 
-  void advance() {
-    previous_end_ = current_.span.end;
-    current_ = lexer_.next(LexMode::kValues);
-  }
-  std::string_view text(const Token& token) const { return source_.text(token.span); }
   bool current_is_value() const {
-    return current_.type == TokenType::kNumber || current_.type == TokenType::kString ||
-           current_.type == TokenType::kColor || current_.type == TokenType::kBad;
+    return tokens_.is(TokenType::kNumber) || tokens_.is(TokenType::kString) || tokens_.is(TokenType::kColor) ||
+           tokens_.is(TokenType::kBad) || tokens_.is(TokenType::kOpenParenthesis);
   }
-  void error(Span span, std::string message, std::string suggestion = {}) {
-    diagnostics_.error({&source_, span}, std::move(message), std::move(suggestion));
+  template <class Node>
+  void add(std::vector<ItemNode>& items, const Node* node) {
+    if (node != nullptr) items.emplace_back(node);
   }
 
   void parse_version();
   std::span<const ItemNode> parse_items(Context context);
   void parse_item(Context context, std::vector<ItemNode>& items);
+  std::span<const ItemNode> parse_body(Span keyword, Context context);
   int words_before_brace() const;
   const BlockNode* parse_block(int words);
   const PropertyNode* parse_property(Context context);
   bool begins_next_property(Context context) const;
   const IncludeNode* parse_include();
+  const LetNode* parse_let();
+  const ForNode* parse_for(Context context);
+  const IfNode* parse_if(Context context);
+  const DefineNode* parse_define();
+  bool parse_parameter(std::vector<ParameterNode>& parameters);
+  bool take_new_name(Span keyword, std::string_view what, Span& span, NameId& name);
+  const Expression* parse_clause(std::string_view keyword, Span statement);
   ValueNode take_value();
   void report_stray();
-  void skip_operators();
+  void skip_to_statement();
   void skip_nested_braces();
 
-  const Source& source_;
-  Diagnostics& diagnostics_;
-  Lexer lexer_;
   std::unique_ptr<SyntaxTree> tree_;
-  Token current_;
-  std::uint32_t previous_end_ = 0;
+  TokenReader tokens_;
   int depth_ = 0;
+  bool tokens_ended_open_ = false;  // some '{' lacks its '}': every block around it ends with the text too
 };
 
 void Parser::parse_version() {
-  if (current_.type != TokenType::kWord || text(current_) != "raytracer") return;
-  advance();
-  if (current_.type == TokenType::kNumber && current_.number == kLanguageVersion) return advance();
-  const bool is_number = current_.type == TokenType::kNumber;
-  error(is_number ? current_.span : Span{previous_end_ - 9, previous_end_},
-        is_number ? fmt::format("the scene is written in version {} of the language", text(current_))
-                  : "the version of the language is missing",
-        fmt::format("this program reads 'raytracer {}'", kLanguageVersion));
-  if (is_number) advance();
+  if (!tokens_.is_word("raytracer")) return;
+  const Span keyword = tokens_.current().span;
+  tokens_.advance();
+  const bool is_number = tokens_.is(TokenType::kNumber);
+  if (!is_number || tokens_.current().number != kLanguageVersion) {
+    tokens_.error(is_number ? tokens_.current().span : keyword,
+                  is_number ? fmt::format("the scene is written in version {} of the language", tokens_.text())
+                            : "the version of the language is missing",
+                  fmt::format("this program reads 'raytracer {}'", kLanguageVersion));
+  }
+  if (is_number) tokens_.advance();
 }
 
 std::span<const ItemNode> Parser::parse_items(Context context) {
   std::vector<ItemNode> items;
-  while (current_.type != TokenType::kEnd) {
-    if (current_.type == TokenType::kCloseBrace) {
+  while (!tokens_.is(TokenType::kEnd)) {
+    if (tokens_.is(TokenType::kCloseBrace)) {
       if (depth_ > 0) break;
-      error(current_.span, "this '}' closes nothing");
-      advance();
+      tokens_.error(tokens_.current().span, "this '}' closes nothing");
+      tokens_.advance();
       continue;
     }
     parse_item(context, items);
@@ -103,95 +101,121 @@ std::span<const ItemNode> Parser::parse_items(Context context) {
 }
 
 void Parser::parse_item(Context context, std::vector<ItemNode>& items) {
-  if (current_.type != TokenType::kWord) return report_stray();
-  if (text(current_) == "include") {
-    if (const IncludeNode* include = parse_include()) items.emplace_back(include);
+  if (!tokens_.is(TokenType::kWord)) return report_stray();
+  if (tokens_.is_word("include")) return add(items, parse_include());
+  if (tokens_.is_word("let")) return add(items, parse_let());
+  if (tokens_.is_word("for")) return add(items, parse_for(context));
+  if (tokens_.is_word("if")) return add(items, parse_if(context));
+  if (tokens_.is_word("define")) return add(items, parse_define());
+  if (tokens_.is_word("else")) {
+    tokens_.error(tokens_.current().span, "this 'else' belongs to no 'if'", "if t > 2 { … } else { … }");
+    tokens_.advance();
+    if (tokens_.is(TokenType::kOpenBrace)) skip_nested_braces();
     return;
   }
   const int words = words_before_brace();
-  if (words > 0) {
-    if (const BlockNode* block = parse_block(words)) items.emplace_back(block);
-  } else if (const PropertyNode* property = parse_property(context)) {
-    items.emplace_back(property);
-  }
+  if (words > 0) return add(items, parse_block(words));
+  add(items, parse_property(context));
 }
 
 // How many words, the current one included, stand before a '{' if a block begins here; 0 if none does.
 int Parser::words_before_brace() const {
-  const int most = may_have_variant(text(current_)) ? 3 : 2;
-  Lexer ahead = lexer_.quiet_copy();
+  const int most = may_have_variant(tokens_.text()) ? 3 : 2;
+  Lexer ahead = tokens_.ahead();
   for (int words = 1; words <= most; ++words) {
     const Token token = ahead.next(LexMode::kValues);
     if (token.type == TokenType::kOpenBrace) return words;
-    if (token.type != TokenType::kWord) return 0;
+    if (token.type != TokenType::kWord || is_reserved(tokens_.text(token.span))) return 0;
   }
   return 0;
 }
 
+// The items between a '{', which must be the current token, and its '}'.
+std::span<const ItemNode> Parser::parse_body(Span keyword, Context context) {
+  const Span open = tokens_.current().span;
+  if (depth_ >= kDeepestNesting) {
+    tokens_.error(open, fmt::format("blocks are nested more than {} deep", kDeepestNesting));
+    skip_nested_braces();
+    return {};
+  }
+  tokens_.advance();
+  ++depth_;
+  const std::span<const ItemNode> items = parse_items(context);
+  --depth_;
+  if (tokens_.is(TokenType::kCloseBrace)) {
+    tokens_.advance();
+  } else {
+    tokens_.error(open, fmt::format("this '{{' of '{}' is never closed", tokens_.text(keyword)), "'}' is missing");
+    tokens_ended_open_ = true;
+  }
+  return items;
+}
+
 const BlockNode* Parser::parse_block(int words) {
   BlockNode block;
-  block.kind = current_.span;
+  block.kind = tokens_.current().span;
+  block.kind_name = tokens_.name_of(block.kind);
   std::vector<Span> more;
   for (int i = 1; i < words; ++i) {
-    advance();
-    more.push_back(current_.span);
+    tokens_.advance();
+    more.push_back(tokens_.current().span);
   }
   block.words = tree_->arena.copy(std::span<const Span>(more));
-  advance();
-  const Span open = current_.span;
-  if (depth_ >= kDeepestNesting) {
-    error(open, fmt::format("blocks are nested more than {} deep", kDeepestNesting));
-    skip_nested_braces();
-    return nullptr;
-  }
-  advance();
-  ++depth_;
-  block.items = parse_items(source_.text(block.kind));
-  --depth_;
-  if (current_.type == TokenType::kCloseBrace) {
-    advance();
-  } else {
-    error(open, fmt::format("this '{{' of '{}' is never closed", source_.text(block.kind)), "'}' is missing");
-  }
-  block.end = previous_end_;
+  tokens_.advance();
+  block.items = parse_body(block.kind, tokens_.text(block.kind));
+  block.end = tokens_.previous_end();
+  block.is_closed = block.end > block.kind.end && tokens_.text({block.end - 1, block.end}) == "}" && !tokens_ended_open_;
   return tree_->arena.make(block);
 }
 
 // Whether the word that follows a property's name is not its value but the next property: `radius center 0 1 0`.
 bool Parser::begins_next_property(Context context) const {
-  if (!is_property_of(context, text(current_))) return false;
-  const TokenType next = lexer_.quiet_copy().next(LexMode::kValues).type;
+  if (is_reserved(tokens_.text()) && find_function(tokens_.text()) == nullptr && !tokens_.is_word("true") &&
+      !tokens_.is_word("false") && !tokens_.is_word("pi") && !tokens_.is_word("t") && !tokens_.is_word("frame")) {
+    return true;
+  }
+  if (!is_property_of(context, tokens_.text())) return false;
+  const TokenType next = tokens_.ahead().next(LexMode::kValues).type;
   return next == TokenType::kNumber || next == TokenType::kString || next == TokenType::kColor ||
-         next == TokenType::kOpenBrace;
+         next == TokenType::kOpenBrace || next == TokenType::kOpenParenthesis;
 }
 
 ValueNode Parser::take_value() {
   ValueNode value;
-  value.span = current_.span;
-  value.number = current_.number;
-  switch (current_.type) {
+  value.span = tokens_.current().span;
+  value.number = tokens_.current().number;
+  switch (tokens_.current().type) {
     case TokenType::kNumber: value.kind = ValueKind::kNumber; break;
     case TokenType::kString: value.kind = ValueKind::kString; break;
     case TokenType::kColor: value.kind = ValueKind::kColor; break;
-    case TokenType::kWord: value.kind = ValueKind::kWord; break;
+    case TokenType::kWord:
+      value.kind = ValueKind::kWord;
+      value.name = tokens_.name_of(value.span);
+      break;
+    case TokenType::kOpenParenthesis:
+      value.expression = ExpressionParser(tokens_).parse_parenthesised();
+      value.kind = value.expression->operation == Operation::kUnknown ? ValueKind::kBad : ValueKind::kExpression;
+      value.span = value.expression->span;
+      return value;
     default: value.kind = ValueKind::kBad; break;
   }
-  advance();
+  tokens_.advance();
   return value;
 }
 
 const PropertyNode* Parser::parse_property(Context context) {
   PropertyNode property;
-  property.name = current_.span;
-  advance();
+  property.name = tokens_.current().span;
+  property.name_id = tokens_.name_of(property.name);
+  tokens_.advance();
   std::vector<ValueNode> values;
-  if (current_.type == TokenType::kWord && !begins_next_property(context)) values.push_back(take_value());
+  if (tokens_.is(TokenType::kWord) && !begins_next_property(context)) values.push_back(take_value());
   while (true) {
     if (current_is_value()) {
       values.push_back(take_value());
-    } else if (current_.type == TokenType::kOperator || current_.type == TokenType::kOpenParenthesis) {
+    } else if (tokens_.is(TokenType::kOperator)) {
       ValueNode bad;
-      bad.span = current_.span;
+      bad.span = tokens_.current().span;
       report_stray();
       values.push_back(bad);
     } else {
@@ -204,64 +228,263 @@ const PropertyNode* Parser::parse_property(Context context) {
 
 const IncludeNode* Parser::parse_include() {
   IncludeNode include;
-  include.keyword = current_.span;
-  advance();
-  if (current_.type != TokenType::kString) {
-    if (current_.type != TokenType::kBad) {
-      error(include.keyword, "'include' needs the name of a file", "include \"parts.txt\"");
+  include.keyword = tokens_.current().span;
+  tokens_.advance();
+  if (!tokens_.is(TokenType::kString)) {
+    if (!tokens_.is(TokenType::kBad)) {
+      tokens_.error(include.keyword, "'include' needs the name of a file", "include \"parts.txt\"");
     }
-    if (current_.type != TokenType::kCloseBrace && current_.type != TokenType::kEnd) advance();
+    if (!tokens_.is(TokenType::kCloseBrace) && !tokens_.is(TokenType::kEnd)) tokens_.advance();
     return nullptr;
   }
   include.file = take_value();
   return tree_->arena.make(include);
 }
 
+// The word that a statement gives a meaning to.
+bool Parser::take_new_name(Span keyword, std::string_view what, Span& span, NameId& name) {
+  if (!tokens_.is(TokenType::kWord)) {
+    if (!tokens_.is(TokenType::kBad)) {
+      tokens_.error(keyword, fmt::format("'{}' needs a name", tokens_.text(keyword)), std::string(what));
+    }
+    skip_to_statement();
+    return false;
+  }
+  span = tokens_.current().span;
+  name = tokens_.name_of(span);
+  if (is_reserved(tokens_.text())) {
+    tokens_.error(span, fmt::format("'{}' is built in and can't be given another meaning", tokens_.text()),
+                  "choose another name");
+  }
+  return true;
+}
+
+// After a statement that can't be understood: on to a word that may begin the next one, over whole pairs of braces.
+void Parser::skip_to_statement() {
+  while (!tokens_.is(TokenType::kEnd) && !tokens_.is(TokenType::kCloseBrace)) {
+    if (tokens_.is(TokenType::kOpenBrace)) return skip_nested_braces();
+    tokens_.advance();
+    if (tokens_.is(TokenType::kWord) && (is_reserved(tokens_.text()) || words_before_brace() > 0)) return;
+  }
+}
+
+const LetNode* Parser::parse_let() {
+  LetNode let;
+  const Span keyword = tokens_.current().span;
+  tokens_.advance();
+  if (!take_new_name(keyword, "let n = 12", let.name_span, let.name)) return nullptr;
+  tokens_.advance();
+  if (!tokens_.is_operator("=")) {
+    if (!tokens_.is(TokenType::kBad)) {
+      tokens_.error(let.name_span, fmt::format("'let {}' needs a '=' and a value", tokens_.text(let.name_span)),
+                    "let n = 12");
+    }
+    if (!current_is_value()) return nullptr;
+    while (current_is_value()) take_value();
+    return nullptr;
+  }
+  tokens_.set_mode(LexMode::kExpression);
+  tokens_.advance();
+  let.value = ExpressionParser(tokens_).parse_open();
+  // `let p = 1 2 3`: a vector has parentheses.
+  if (let.value->operation != Operation::kUnknown && (tokens_.is(TokenType::kNumber) || tokens_.is(TokenType::kString))) {
+    const Span extra = tokens_.current().span;
+    while (current_is_value()) take_value();
+    tokens_.error({extra.begin, tokens_.previous_end()}, "'let' takes one value", "a vector is written (1, 2, 3)");
+  }
+  return tree_->arena.make(let);
+}
+
+// `from 0`: a word of a statement and the expression behind it.
+const Expression* Parser::parse_clause(std::string_view keyword, Span statement) {
+  if (!tokens_.is_word(keyword)) {
+    if (!tokens_.is(TokenType::kBad)) {
+      tokens_.error(statement, fmt::format("'for' needs a '{}'", keyword), "for i from 0 to 9 { … }");
+    }
+    return nullptr;
+  }
+  tokens_.set_mode(LexMode::kExpression);
+  tokens_.advance();
+  return ExpressionParser(tokens_).parse_open();
+}
+
+const ForNode* Parser::parse_for(Context context) {
+  ForNode loop;
+  loop.keyword = tokens_.current().span;
+  tokens_.advance();
+  if (!take_new_name(loop.keyword, "for i from 0 to 9 { … }", loop.name_span, loop.name)) return nullptr;
+  tokens_.advance();
+  const Span head = {loop.keyword.begin, loop.name_span.end};
+  loop.from = parse_clause("from", head);
+  loop.to = loop.from == nullptr ? nullptr : parse_clause("to", head);
+  if (loop.to != nullptr && tokens_.is_word("step")) loop.step = parse_clause("step", head);
+  if (!tokens_.is(TokenType::kOpenBrace)) {
+    const bool said = loop.to == nullptr || loop.to->operation == Operation::kUnknown ||
+                      (loop.step != nullptr && loop.step->operation == Operation::kUnknown);
+    if (!said) tokens_.error(head, "'for' needs braces around what it repeats", "for i from 0 to 9 { … }");
+    skip_to_statement();
+    return nullptr;
+  }
+  loop.items = parse_body(loop.keyword, context);
+  return loop.to == nullptr ? nullptr : tree_->arena.make(loop);
+}
+
+const IfNode* Parser::parse_if(Context context) {
+  IfNode choice;
+  choice.keyword = tokens_.current().span;
+  tokens_.set_mode(LexMode::kExpression);
+  tokens_.advance();
+  choice.condition = ExpressionParser(tokens_).parse_open();
+  if (!tokens_.is(TokenType::kOpenBrace)) {
+    if (choice.condition->operation != Operation::kUnknown) {
+      tokens_.error(choice.keyword, "'if' needs braces around what it guards", "if t > 2 { … } else { … }");
+    }
+    skip_to_statement();
+    return nullptr;
+  }
+  choice.items = parse_body(choice.keyword, context);
+  if (!tokens_.is_word("else")) return tree_->arena.make(choice);
+  const Span else_keyword = tokens_.current().span;
+  tokens_.advance();
+  if (tokens_.is_word("if")) {
+    std::vector<ItemNode> nested;
+    if (depth_ < kDeepestNesting) {
+      ++depth_;  // `else if` chains are a recursion too
+      add(nested, parse_if(context));
+      --depth_;
+    } else {
+      tokens_.error(else_keyword, fmt::format("blocks are nested more than {} deep", kDeepestNesting));
+      skip_to_statement();
+    }
+    choice.else_items = tree_->arena.copy(std::span<const ItemNode>(nested));
+  } else if (tokens_.is(TokenType::kOpenBrace)) {
+    choice.else_items = parse_body(else_keyword, context);
+  } else {
+    tokens_.error(else_keyword, "'else' needs braces around what it guards", "else { … }");
+  }
+  return tree_->arena.make(choice);
+}
+
+const DefineNode* Parser::parse_define() {
+  DefineNode define;
+  define.keyword = tokens_.current().span;
+  tokens_.advance();
+  if (!take_new_name(define.keyword, "define tree (height 2) { … }", define.name_span, define.name)) return nullptr;
+  if (find_kind(tokens_.text()) != nullptr) {
+    tokens_.error(define.name_span, fmt::format("'{}' is built in and can't be given another meaning", tokens_.text()),
+                  "choose another name");
+  }
+  tokens_.advance();
+  std::vector<ParameterNode> parameters;
+  if (tokens_.is(TokenType::kOpenParenthesis)) {
+    const Span open = tokens_.current().span;
+    tokens_.advance();
+    while (tokens_.is(TokenType::kWord) && parse_parameter(parameters)) {
+    }
+    if (!tokens_.is(TokenType::kCloseParenthesis)) {
+      if (!tokens_.is(TokenType::kBad)) {
+        tokens_.error(open, "this list of parameters is never closed", "(size 1, hat black)");
+      }
+      skip_to_statement();
+      return nullptr;
+    }
+    tokens_.advance();
+  }
+  if (!tokens_.is(TokenType::kOpenBrace)) {
+    tokens_.error({define.keyword.begin, define.name_span.end}, "'define' needs braces around what it defines",
+                  "define tree (height 2) { … }");
+    skip_to_statement();
+    return nullptr;
+  }
+  define.parameters = tree_->arena.copy(std::span<const ParameterNode>(parameters));
+  define.items = parse_body(define.keyword, "group");
+  return tree_->arena.make(define);
+}
+
+// `size 1` and the comma behind it; false where no further one follows.
+bool Parser::parse_parameter(std::vector<ParameterNode>& parameters) {
+  ParameterNode parameter;
+  parameter.name_span = tokens_.current().span;
+  parameter.name = tokens_.name_of(parameter.name_span);
+  const std::string_view word = tokens_.text();
+  const bool taken = is_reserved(word) || is_property_of("group", word);
+  if (taken) {
+    tokens_.error(parameter.name_span, fmt::format("'{}' can't be a parameter: it has a meaning of its own", word),
+                  "choose another name");
+  }
+  for (const ParameterNode& other : parameters) {
+    if (other.name == parameter.name) {
+      tokens_.error(parameter.name_span, fmt::format("a second parameter of the name '{}'", word));
+    }
+  }
+  tokens_.advance();
+  std::vector<ValueNode> values;
+  while (current_is_value() || tokens_.is(TokenType::kWord)) values.push_back(take_value());
+  if (values.empty()) {
+    tokens_.error(parameter.name_span, fmt::format("the parameter '{}' has no default", word),
+                  fmt::format("({} 1)", word));
+    values.push_back({});
+  }
+  parameter.values = tree_->arena.copy(std::span<const ValueNode>(values));
+  parameters.push_back(parameter);
+  if (!tokens_.is_operator(",")) return false;
+  tokens_.advance();
+  return true;
+}
+
 // Something that can't stand where an item begins, or among values.
 void Parser::report_stray() {
-  const Token stray = current_;
+  const Token stray = tokens_.current();
   switch (stray.type) {
     case TokenType::kBad: break;  // the lexer has said it
     case TokenType::kOpenBrace:
-      error(stray.span, "this '{' belongs to no block", "a block begins with its kind: sphere { … }");
+      tokens_.error(stray.span, "this '{' belongs to no block", "a block begins with its kind: sphere { … }");
       return skip_nested_braces();
     case TokenType::kOperator:
-    case TokenType::kOpenParenthesis:
-    case TokenType::kCloseParenthesis:
-      skip_operators();
-      error({stray.span.begin, previous_end_}, fmt::format("unexpected '{}'", text(stray)),
-            text(stray) == "," || text(stray) == "=" ? "values are separated by spaces alone"
-                                                       : "values are plain numbers, words and strings");
+    case TokenType::kCloseParenthesis: {
+      const bool separates = tokens_.text() == "," || tokens_.text() == "=";
+      while (tokens_.is(TokenType::kOperator) || tokens_.is(TokenType::kCloseParenthesis)) tokens_.advance();
+      tokens_.error({stray.span.begin, tokens_.previous_end()}, fmt::format("unexpected '{}'", tokens_.text(stray.span)),
+                    separates ? "values are separated by spaces alone"
+                              : "a computed value stands in parentheses: (2 * r)");
       return;
-    default:
-      while (current_is_value()) advance();
-      error({stray.span.begin, previous_end_}, fmt::format("{} belongs to no property", text(stray)),
-            "a property begins with its name: radius 1");
+    }
+    default: {
+      while (current_is_value()) take_value();
+      const Span all = {stray.span.begin, tokens_.previous_end()};
+      tokens_.error(all, fmt::format("{} belongs to no property", tokens_.text(stray.span)),
+                    "a property begins with its name: radius 1");
       return;
+    }
   }
-  advance();
-}
-
-void Parser::skip_operators() {
-  while (current_.type == TokenType::kOperator || current_.type == TokenType::kOpenParenthesis ||
-         current_.type == TokenType::kCloseParenthesis) {
-    advance();
-  }
+  tokens_.advance();
 }
 
 void Parser::skip_nested_braces() {
   int open = 0;
   do {
-    if (current_.type == TokenType::kOpenBrace) ++open;
-    if (current_.type == TokenType::kCloseBrace) --open;
-    advance();
-  } while (open > 0 && current_.type != TokenType::kEnd);
+    if (tokens_.is(TokenType::kOpenBrace)) ++open;
+    if (tokens_.is(TokenType::kCloseBrace)) --open;
+    tokens_.advance();
+  } while (open > 0 && !tokens_.is(TokenType::kEnd));
 }
 
 }  // namespace
 
-std::unique_ptr<SyntaxTree> parse(const Source& source, Diagnostics& diagnostics) {
-  return Parser(source, diagnostics).parse();
+std::unique_ptr<SyntaxTree> parse(const Source& source, Names& names, Diagnostics& diagnostics) {
+  return Parser(source, names, diagnostics).parse();
+}
+
+const Expression* parse_lone_expression(const Source& source, Names& names, Arena& arena, Diagnostics& diagnostics) {
+  TokenReader tokens(source, names, arena, diagnostics);
+  const std::size_t errors_before = diagnostics.error_count();
+  // The first token was read as a value would be: a sign belongs to its number, which does no harm.
+  tokens.set_mode(LexMode::kExpression);
+  const Expression* expression = ExpressionParser(tokens).parse_open();
+  if (!tokens.is(TokenType::kEnd) && diagnostics.error_count() == errors_before) {
+    diagnostics.error({&source, tokens.current().span}, "unexpected text behind the value");
+  }
+  return diagnostics.error_count() == errors_before ? expression : nullptr;
 }
 
 }  // namespace raytracer::scene_file

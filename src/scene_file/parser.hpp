@@ -8,10 +8,13 @@
 
 namespace raytracer::scene_file {
 
-/// Blocks inside blocks, at most.
+/// Blocks inside blocks, and parentheses inside parentheses, at most; the parser is recursive.
 inline constexpr int kDeepestNesting = 256;
 
 /// Parses a source; mistakes go to `diagnostics`, and what can be understood in spite of them is in the tree.
-std::unique_ptr<SyntaxTree> parse(const Source& source, Diagnostics& diagnostics);
+std::unique_ptr<SyntaxTree> parse(const Source& source, Names& names, Diagnostics& diagnostics);
+
+/// Parses a text that is one expression alone; null where it is none, which has then been reported.
+const Expression* parse_lone_expression(const Source& source, Names& names, Arena& arena, Diagnostics& diagnostics);
 
 }  // namespace raytracer::scene_file

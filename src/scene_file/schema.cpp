@@ -19,6 +19,7 @@ constexpr PropertyRow common(std::string_view name, PropertyType type, std::stri
   row.unit = unit;
   row.help = help;
   row.default_text = default_text;
+  row.is_placing = type != PropertyType::kMaterial;
   return row;
 }
 

@@ -49,6 +49,8 @@ struct Argument {
   std::array<double, 12> numbers{};
   std::string text;
   std::uint32_t index = 0;  ///< of a word in its list, of a material in the scene
+  bool is_display = false;  ///< of a colour, as Value has it
+  bool depends_on_time = false;
 };
 
 /// A colour as written; 1 is white. Display colours (#rrggbb, names) are the same numbers in `method classic`.
@@ -70,9 +72,20 @@ struct PropertyRow {
   std::span<const std::string_view> words;  ///< of a kWord
   std::string_view default_text;            ///< said instead of the value in the input struct
   bool required = false;
+  bool is_placing = false;  ///< a transform word
   void (*store)(void* input, const Argument& argument) = nullptr;
   std::string (*default_value)(const void* input, const PropertyRow& row) = nullptr;  ///< as it would be written
 
+ private:
+  // First: Clang 14 wants it defined before the constants below are computed.
+  template <class Field>
+  constexpr PropertyRow with(Field PropertyRow::* field, const Field& value) const {
+    PropertyRow row = *this;
+    row.*field = value;
+    return row;
+  }
+
+ public:
   constexpr PropertyRow in(std::string_view new_unit) const { return with(&PropertyRow::unit, new_unit); }
   constexpr PropertyRow within(Range new_range) const { return with(&PropertyRow::range, new_range); }
   constexpr PropertyRow one_of(std::span<const std::string_view> list) const {
@@ -81,14 +94,6 @@ struct PropertyRow {
   constexpr PropertyRow or_else(std::string_view said) const { return with(&PropertyRow::default_text, said); }
   constexpr PropertyRow as(PropertyType new_type) const { return with(&PropertyRow::type, new_type); }
   constexpr PropertyRow must_be_given() const { return with(&PropertyRow::required, true); }
-
- private:
-  template <class Field>
-  constexpr PropertyRow with(Field PropertyRow::* field, const Field& value) const {
-    PropertyRow row = *this;
-    row.*field = value;
-    return row;
-  }
 };
 
 /// What of a block can be moved, turned and grown.

@@ -11,22 +11,67 @@
 #include <variant>
 #include <vector>
 
+#include "scene_file/names.hpp"
 #include "scene_file/source.hpp"
 
 namespace raytracer::scene_file {
 
-enum class ValueKind : std::uint8_t { kNumber, kString, kColor, kWord, kBad };
+struct FunctionRow;
+
+enum class Operation : std::uint8_t {
+  kUnknown,  ///< stands for text that could not be read, which has been reported
+  kNumber,
+  kString,
+  kColor,
+  kName,
+  kVector,  ///< three arguments
+  kNegate,
+  kPlus,
+  kNot,
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kRemainder,
+  kPower,
+  kLess,
+  kLessEqual,
+  kGreater,
+  kGreaterEqual,
+  kEqual,
+  kNotEqual,
+  kAnd,
+  kOr,
+  kChoose,  ///< condition, value if true, value if not
+  kMember,  ///< `.x`; the component's index is in `number`
+  kCall,
+};
+
+/// A node of an expression.
+struct Expression {
+  Operation operation = Operation::kUnknown;
+  Span span;
+  double number = 0;                      ///< of a kNumber
+  NameId name = 0;                        ///< of a kName
+  const FunctionRow* function = nullptr;  ///< of a kCall
+  std::span<const Expression* const> arguments;
+};
+
+enum class ValueKind : std::uint8_t { kNumber, kString, kColor, kWord, kExpression, kBad };
 
 /// One value as it was written.
 struct ValueNode {
   ValueKind kind = ValueKind::kBad;
   Span span;
-  double number = 0;  ///< of a kNumber
+  double number = 0;                       ///< of a kNumber
+  NameId name = 0;                         ///< of a kWord
+  const Expression* expression = nullptr;  ///< of a kExpression
 };
 
 /// `radius 0.5`
 struct PropertyNode {
   Span name;
+  NameId name_id = 0;
   std::span<const ValueNode> values;
 
   Span whole() const { return {name.begin, values.empty() ? name.end : values.back().span.end}; }
@@ -40,14 +85,59 @@ struct IncludeNode {
   ValueNode file;
 };
 
-using ItemNode = std::variant<const PropertyNode*, const BlockNode*, const IncludeNode*>;
+struct LetNode;
+struct ForNode;
+struct IfNode;
+struct DefineNode;
+
+using ItemNode = std::variant<const PropertyNode*, const BlockNode*, const IncludeNode*, const LetNode*,
+                              const ForNode*, const IfNode*, const DefineNode*>;
+
+/// `let n = 12`
+struct LetNode {
+  Span name_span;
+  NameId name = 0;
+  const Expression* value = nullptr;
+};
+
+/// `for i from 0 to n - 1 step 2 { … }`
+struct ForNode {
+  Span keyword, name_span;
+  NameId name = 0;
+  const Expression *from = nullptr, *to = nullptr, *step = nullptr;  ///< `step` may be null: 1
+  std::span<const ItemNode> items;
+};
+
+/// `if t > 2 { … } else { … }`
+struct IfNode {
+  Span keyword;
+  const Expression* condition = nullptr;
+  std::span<const ItemNode> items, else_items;
+};
+
+/// One of a definition's parameters with its default.
+struct ParameterNode {
+  Span name_span;
+  NameId name = 0;
+  std::span<const ValueNode> values;
+};
+
+/// `define snowman (size 1, hat black) { … }`
+struct DefineNode {
+  Span keyword, name_span;
+  NameId name = 0;
+  std::span<const ParameterNode> parameters;
+  std::span<const ItemNode> items;
+};
 
 /// `light spot lamp { … }`: a kind, up to two words behind it, and what stands between the braces.
 struct BlockNode {
   Span kind;
+  NameId kind_name = 0;
   std::span<const Span> words;
   std::span<const ItemNode> items;
   std::uint32_t end = 0;  ///< behind the closing brace
+  bool is_closed = true;  ///< false where the text ended first, which has been reported
 
   Span header() const { return {kind.begin, words.empty() ? kind.end : words.back().end}; }
 };

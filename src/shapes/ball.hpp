@@ -4,26 +4,21 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "shapes/hits.hpp"
+
 namespace raytracer::shapes {
 
-/// The stretch of a ray inside a convex body, in units of |direction|.
-template <class T>
-struct Span {
-  T near, far;
-};
-
-/// Where the line from + t direction is inside the ball of `radius` around the origin. Returns false where it misses,
-/// or leaves the ball behind (t < 0 at both ends).
+/// Where the line from + t direction is inside the ball of `radius` around the origin. Returns false where it
+/// misses.
 ///
-/// The discriminant is taken from the point of the line that is closest to the centre, and the end close to `from` as a
-/// quotient: E. Haines, J. Günther, T. Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray
-/// Tracing Gems, 2019, chapter 7, equations (5) and (10). T is float or double; Vector is any three of them.
+/// The discriminant is taken from the point of the line that is closest to the centre, and the end close to
+/// `from` as a quotient: E. Haines, J. Günther, T. Akenine-Möller, "Precision Improvements for Ray/Sphere
+/// Intersection", Ray Tracing Gems, 2019, chapter 7. T is float or double; Vector is any three of them.
 template <class T, class Vector>
 inline bool intersect_ball(const Vector& from, const Vector& direction, T radius, Span<T>& span) {
   const T b = -glm::dot(from, direction);
   const T squared_radius = radius * radius;
   const T c = glm::dot(from, from) - squared_radius;
-  if (c > 0 && b <= 0) return false;  // outside and on the way out
   const T inverse_a = T(1) / glm::dot(direction, direction);
   const Vector closest = from + (b * inverse_a) * direction;
   const T discriminant = squared_radius - glm::dot(closest, closest);

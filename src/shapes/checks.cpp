@@ -12,16 +12,18 @@ namespace raytracer::shapes {
 namespace {
 
 constexpr double kLargestCoordinate = 1e18;
-// Spare room around a box, in units in the last place of its coordinates: one for a point that was rounded to float,
-// the rest for the traversal that meets the box.
+// Spare room around a box, in units in the last place of its coordinates: one for a point that was rounded to
+// float, the rest for the traversal that meets the box.
 constexpr double kSpareUnits = 4;
-// The volume of the unit cube's image over the product of its edges; below this the inverse has lost its digits.
+// The volume of the unit cube's image over the product of its edges; below this the inverse has lost its
+// digits.
 constexpr double kLeastRelativeVolume = 1e-9;
 
 }  // namespace
 
 void require_finite(double value, const char* property) {
-  if (!std::isfinite(value)) throw Error(ErrorKind::kScene, fmt::format("'{}' is not a finite number", property));
+  if (!std::isfinite(value))
+    throw Error(ErrorKind::kScene, fmt::format("'{}' is not a finite number", property));
 }
 
 void require_finite(const Vector3d& value, const char* property) {

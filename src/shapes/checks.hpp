@@ -1,5 +1,5 @@
-// What every shape demands of its parameters. Each function throws Error (kScene) with a sentence that names the
-// property.
+// What every shape demands of its parameters. Each function throws Error (kScene) with a sentence that names
+// the property.
 #pragma once
 
 #include "raytracer/vector3f.hpp"
@@ -24,11 +24,13 @@ void require_apart(const Vector3d& base, const Vector3d& top);
 /// Finite and invertible.
 void require_regular(const Transform& transform);
 
-/// Whether the sine of the angle between two vectors is too small to tell them from parallel ones, or one is zero.
+/// Whether the sine of the angle between two vectors is too small to tell them from parallel ones, or one is
+/// zero.
 bool are_parallel(const Vector3d& a, const Vector3d& b);
 
-/// Rounds a box in world space outwards, with a few units in the last place to spare for points that are rounded to
-/// float. Throws where it reaches beyond 1e18: squares of larger coordinates leave the range of float.
+/// Rounds a box in world space outwards, with a few units in the last place to spare for points that are
+/// rounded to float. Throws where it reaches beyond 1e18: squares of larger coordinates leave the range of
+/// float.
 Box3f rounded_bounds(const Vector3d& lower, const Vector3d& upper);
 
 }  // namespace raytracer::shapes

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <limits>
 
-#include "raytracer/error.hpp"
 #include "raytracer/shapes.hpp"
 #include "shapes/box.hpp"
 #include "shapes/checks.hpp"
@@ -40,8 +38,8 @@ bool is_box_hit(const Ray3f& ray, const Vector& origin, const Vector& direction,
   return true;
 }
 
-/// uv of a point of the cube from -1 to 1: u to the right and v upwards for one who looks at the face from outside, y
-/// (for the faces across y: -z on +y, z on -y) up.
+/// uv of a point of the cube from -1 to 1: u to the right and v upwards for one who looks at the face from
+/// outside, y (for the faces across y: -z on +y, z on -y) up.
 ///
 ///     face   u = 0 -> 1   v = 0 -> 1
 ///      -x     -z -> z      -y -> y
@@ -62,8 +60,8 @@ Vector3d face_normal(std::uint32_t face) {
   return normal;
 }
 
-/// A cube with its edges along the axes of the world. Its faces lie at floats, so that a ray on a face is there
-/// exactly, and cubes with a common face leave no gap.
+/// A cube with its edges along the axes of the world. Its faces lie at floats, so that a ray on a face is
+/// there exactly, and cubes with a common face leave no gap.
 class AlignedCube final : public Shape {
  public:
   AlignedCube(const Vector3d& center, const Vector3d& half_size)

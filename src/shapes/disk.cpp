@@ -13,8 +13,8 @@ namespace {
 using shapes::Frame;
 using shapes::LocalRay;
 
-/// The unit disk across z in a frame. u runs once around from the frame's first axis towards the second, v from the
-/// centre to the rim. For the normal y and radius 1, before the transform:
+/// The unit disk across z in a frame. u runs once around from the frame's first axis towards the second, v
+/// from the centre to the rim. For the normal y and radius 1, before the transform:
 ///
 ///     point       u     v
 ///      0  0  0    any   0

@@ -15,8 +15,8 @@ struct LocalRay {
   Vector3d at(double t) const { return origin + t * direction; }
 };
 
-/// The affine map between a shape's own space and the world. In double precision, so that what remains of the error
-/// is the rounding of the ray that comes in.
+/// The affine map between a shape's own space and the world. In double precision, so that what remains of the
+/// error is the rounding of the ray that comes in.
 class Frame {
  public:
   /// `to_world` must be regular; the shape must lie around the local origin.
@@ -27,10 +27,10 @@ class Frame {
   }
   Vector3d to_world(const Vector3d& point) const { return to_world_ * point + translation_; }
 
-  /// The point of the surface at the local `point` with the local unit normal `normal` (outwards stays outwards, also
-  /// where the frame mirrors). `curvature` is the largest curvature of the surface there and `extent` the size of the
-  /// shape in the world, see SurfaceBound. `amplification` is how much more than the rounding of a number about 1 the
-  /// shape's own arithmetic is off, across the surface.
+  /// The point of the surface at the local `point` with the local unit normal `normal` (outwards stays
+  /// outwards, also where the frame mirrors). `curvature` is the largest curvature of the surface there and
+  /// `extent` the size of the shape in the world, see SurfaceBound. `amplification` is how much more than the
+  /// rounding of a number about 1 the shape's own arithmetic is off, across the surface.
   SurfacePoint surface_at(const Vector3d& point, const Vector3d& normal, const Vector2f& uv, double curvature,
                           const Vector3d& extent, double amplification = 1) const;
 
@@ -42,8 +42,9 @@ class Frame {
   Vector3d round_trip_;  // per local axis, how much the map to the world and back magnifies rounding
 };
 
-/// Right-handed axes with `axis` (not zero) as the third, of unit length. The first lies across y, as seen with y up it
-/// points to the right of one who looks against `axis`; for an axis along +y the first two are +x and -z.
+/// Right-handed axes with `axis` (not zero) as the third, of unit length. The first lies across y, as seen
+/// with y up it points to the right of one who looks against `axis`; for an axis along +y the first two are
+/// +x and -z.
 glm::dmat3 axes_around(const Vector3d& axis);
 
 /// The angle of (x, y) as a share of the full turn, in [0, 1).

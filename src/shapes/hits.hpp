@@ -5,8 +5,14 @@
 
 namespace raytracer::shapes {
 
-/// Whether t, rounded to float, is on the ray; the comparison is of floats, so that a hit found once is on the ray
-/// exactly as long as t_min < hit.t < t_max. False for NaN.
+/// The stretch of a line inside a convex body, in units of |direction|.
+template <class T>
+struct Span {
+  T near, far;
+};
+
+/// Whether t, rounded to float, is on the ray; the comparison is of floats, so that a hit found once is on
+/// the ray exactly as long as t_min < hit.t < t_max. False for NaN.
 inline bool is_on_ray(const Ray3f& ray, double t) {
   const float rounded = static_cast<float>(t);
   return rounded > ray.t_min && rounded < ray.t_max;

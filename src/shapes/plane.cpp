@@ -8,9 +8,9 @@ namespace raytracer {
 
 namespace {
 
-/// The plane through `point` across `normal`. The normal is rounded to float before anything else: what rays meet is
-/// exactly across the normal that surface_at() reports, however far away. uv is the place in the plane in the shape's
-/// own units, from `point`; before the transform, for the normals y and z:
+/// The plane through `point` across `normal`. The normal is rounded to float before anything else: what rays
+/// meet is exactly across the normal that surface_at() reports, however far away. uv is the place in the
+/// plane in the shape's own units, from `point`; before the transform, for the normals y and z:
 ///
 ///     point + …   u  v          point + …   u  v
 ///      1  0  0    1  0           1  0  0    1  0

@@ -54,7 +54,8 @@ class Quad final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f&, const Hit& hit) const override {
-    const Vector3d position = origin_ + static_cast<double>(hit.u) * width_ + static_cast<double>(hit.v) * height_;
+    const Vector3d position =
+        origin_ + static_cast<double>(hit.u) * width_ + static_cast<double>(hit.v) * height_;
     shapes::SurfaceBound bound;
     bound.arithmetic = 8 * kDoubleRounding * (glm::length(origin_) + glm::length(extent_));
     bound.extent = extent_;

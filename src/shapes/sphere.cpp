@@ -62,7 +62,8 @@ class Sphere final : public Shape {
     // The least that a tangent turned by the rounding of the normal needs to clear the sphere is its square.
     constexpr double kTilt = kFloatRounding * kFloatRounding;
     const Vector3d rounding = 2 * kFloatRounding * glm::abs(position);
-    bound.bend = kTilt * radius_ + std::min(0.5 * glm::dot(rounding, rounding) / radius_, glm::length(rounding));
+    bound.bend =
+        kTilt * radius_ + std::min(0.5 * glm::dot(rounding, rounding) / radius_, glm::length(rounding));
     bound.arithmetic = 8 * kDoubleRounding * (2 * radius_ + glm::length(center_));
     return shapes::rounded_surface(position, normal, sphere_uv(normal), bound);
   }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "shapes/ball.hpp"
 #include "shapes/checks.hpp"
 #include "shapes/frame.hpp"
 #include "shapes/hits.hpp"
@@ -17,8 +16,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 enum Part : std::uint32_t { kSide = 0, kBase = 1, kTop = 2 };
 
-/// The straight line that turns around z: at height z from -1 to 1 its distance from the axis is middle + slope z,
-/// from 0 to 1.
+/// The straight line that turns around z: at height z from -1 to 1 its distance from the axis is middle +
+/// slope z, from 0 to 1.
 struct Profile {
   double middle, slope;
 
@@ -33,12 +32,13 @@ Span<double> span_of_height(const LocalRay& ray) {
   return {std::min(at_base, at_top), std::max(at_base, at_top)};
 }
 
-/// Where the line meets the endless double cone x^2 + y^2 = radius_at(z)^2, in order, and where it is inside the half
-/// of the cone with radius_at(z) >= 0. Returns false where it meets nothing.
+/// Where the line meets the endless double cone x^2 + y^2 = radius_at(z)^2, in order, and where it is inside
+/// the half of the cone with radius_at(z) >= 0. Returns false where it meets nothing.
 ///
-/// With f and d the vectors (x, y, radius_at(z)) of origin and direction and the product <a, b> = ax bx + ay by - ar br,
-/// t solves <d, d> t^2 + 2 <f, d> t + <f, f> = 0. A quarter of the discriminant is, by Lagrange's identity, a sum of
-/// squares of 2x2 determinants, which do not grow along the line: no digits are lost for distant origins.
+/// With f and d the vectors (x, y, radius_at(z)) of origin and direction and the product <a, b> = ax bx + ay
+/// by - ar br, t solves <d, d> t^2 + 2 <f, d> t + <f, f> = 0. A quarter of the discriminant is, by Lagrange's
+/// identity, a sum of squares of 2x2 determinants, which do not grow along the line: no digits are lost for
+/// distant origins.
 bool meet_side(const LocalRay& ray, const Profile& profile, Span<double>& roots, Span<double>& inside) {
   const Vector3d f(ray.origin.x, ray.origin.y, profile.radius_at(ray.origin.z));
   const Vector3d d(ray.direction.x, ray.direction.y, profile.slope * ray.direction.z);
@@ -91,7 +91,8 @@ class Stump final : public Shape {
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
     const Vector3d found = frame_.to_local(ray).at(static_cast<double>(hit.t));
     const double distance = std::hypot(found.x, found.y);
-    const Vector3d outwards = distance > 0 ? Vector3d(found.x / distance, found.y / distance, 0) : Vector3d(1, 0, 0);
+    const Vector3d outwards =
+        distance > 0 ? Vector3d(found.x / distance, found.y / distance, 0) : Vector3d(1, 0, 0);
     const float u = turn_share(outwards.x, outwards.y);
     if (hit.primitive == kSide) {
       const double z = std::clamp(found.z, -1.0, 1.0);
@@ -119,8 +120,8 @@ class Stump final : public Shape {
     return false;
   }
 
-  /// The body is convex: what the line has in common with it is what two stretches have in common. Side and caps
-  /// leave no gap because there is no test where one ends and the other begins.
+  /// The body is convex: what the line has in common with it is what two stretches have in common. Side and
+  /// caps leave no gap because there is no test where one ends and the other begins.
   static bool is_closed_hit(const Ray3f& ray, const LocalRay& local, const Span<double>& height,
                             const Span<double>& inside, Hit& hit) {
     const double near = std::max(height.near, inside.near);
@@ -146,14 +147,16 @@ class Stump final : public Shape {
 
 }  // namespace
 
-std::unique_ptr<Shape> make_stump(const Vector3d& base, double base_radius, const Vector3d& top, double top_radius,
-                                  bool open, const Transform& transform) {
+std::unique_ptr<Shape> make_stump(const Vector3d& base, double base_radius, const Vector3d& top,
+                                  double top_radius, bool open, const Transform& transform) {
   const double largest = std::max(base_radius, top_radius);
   const Vector3d half_axis = 0.5 * (top - base);
   glm::dmat3 axes = largest * axes_around(half_axis);
   axes[2] = half_axis;
-  const Profile profile = {0.5 * (base_radius + top_radius) / largest, 0.5 * (top_radius - base_radius) / largest};
-  return std::make_unique<Stump>(Transform{transform.linear * axes, transform.point(base + half_axis)}, profile, open);
+  const Profile profile = {0.5 * (base_radius + top_radius) / largest,
+                           0.5 * (top_radius - base_radius) / largest};
+  return std::make_unique<Stump>(Transform{transform.linear * axes, transform.point(base + half_axis)},
+                                 profile, open);
 }
 
 }  // namespace raytracer::shapes

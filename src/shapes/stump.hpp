@@ -7,12 +7,12 @@
 
 namespace raytracer::shapes {
 
-/// The stump of a cone with `base_radius` around `base` and `top_radius` around `top`, the radii not negative and not
-/// both 0, base and top apart; without caps where `open`. Normal outwards. primitive 0 is the side, 1 the base cap, 2
-/// the top cap.
+/// The stump of a cone with `base_radius` around `base` and `top_radius` around `top`, the radii not negative
+/// and not both 0, base and top apart; without caps where `open`. Normal outwards. primitive 0 is the side, 1
+/// the base cap, 2 the top cap.
 ///
-/// u runs once around the axis; v on the side from base (0) to top (1), on the caps from the middle to the rim. For
-/// the axis from 0 0 0 to 0 1 0 and the radii 1, before the transform:
+/// u runs once around the axis; v on the side from base (0) to top (1), on the caps from the middle to the
+/// rim. For the axis from 0 0 0 to 0 1 0 and the radii 1, before the transform:
 ///
 ///     part   point         u     v
 ///     side    1  0    0    0     0
@@ -20,7 +20,7 @@ namespace raytracer::shapes {
 ///     side   -1  1    0    0.5   1
 ///     base    0  0    0.5  0.75  0.5
 ///     top     0  1   -1    0.25  1
-std::unique_ptr<Shape> make_stump(const Vector3d& base, double base_radius, const Vector3d& top, double top_radius,
-                                  bool open, const Transform& transform);
+std::unique_ptr<Shape> make_stump(const Vector3d& base, double base_radius, const Vector3d& top,
+                                  double top_radius, bool open, const Transform& transform);
 
 }  // namespace raytracer::shapes

@@ -1,5 +1,5 @@
-// How a point that was found in double precision becomes a SurfacePoint in float, and how far a ray that starts there
-// must step off the surface.
+// How a point that was found in double precision becomes a SurfacePoint in float, and how far a ray that
+// starts there must step off the surface.
 #pragma once
 
 #include "core/numeric.hpp"
@@ -11,17 +11,18 @@ namespace raytracer::shapes {
 struct SurfaceBound {
   /// Error of the arithmetic in double precision, across the surface.
   double arithmetic = 0;
-  /// How far the surface leaves its tangent plane within the rounding of the position to float and of the origin of
-  /// a ray that starts there.
+  /// How far the surface leaves its tangent plane within the rounding of the position to float and of the
+  /// origin of a ray that starts there.
   double bend = 0;
-  /// The size of the shape along each axis, where a ray could stay close to the tangent plane so long that the
-  /// rounding of the normal matters: anything that is flat in some direction.
+  /// The size of the shape along each axis, where a ray could stay close to the tangent plane so long that
+  /// the rounding of the normal matters: anything that is flat in some direction.
   Vector3d extent{0.0};
 };
 
-/// Rounds `position` and the unit vector `normal` to float. A ray that starts at position + position_error * normal
-/// (computed in float), or as far on the other side, starts beyond the surface: the bound adds up how far the rounded
-/// position is off along the normal, how far the rounded origin of the ray may be, and `bound`.
+/// Rounds `position` and the unit vector `normal` to float. A ray that starts at position + position_error *
+/// normal (computed in float), or as far on the other side, starts beyond the surface: the bound adds up how
+/// far the rounded position is off along the normal, how far the rounded origin of the ray may be, and
+/// `bound`.
 inline SurfacePoint rounded_surface(const Vector3d& position, const Vector3d& normal, const Vector2f& uv,
                                     const SurfaceBound& bound) {
   constexpr double kSlack = 1.01;  // for the product and the terms of second order

@@ -14,9 +14,9 @@ namespace {
 using shapes::Frame;
 using shapes::LocalRay;
 
-/// Finds the root of a function in [low, high], given that its sign differs at the two ends and it is monotonic in
-/// between: Newton's steps, halving instead wherever they leave the bracket or converge too slowly. `Function` returns
-/// value and derivative as a pair.
+/// Finds the root of a function in [low, high], given that its sign differs at the two ends and it is
+/// monotonic in between: Newton's steps, halving instead wherever they leave the bracket or converge too
+/// slowly. `Function` returns value and derivative as a pair.
 template <class Function>
 double monotonic_root(const Function& function, double low, double high, bool is_low_negative) {
   constexpr double kConverged = 4 * kDoubleRounding;
@@ -54,8 +54,9 @@ struct Ascending {
   void add(double item) { items[size++] = item; }
 };
 
-/// -reach, the places in between where the slope of the quartic is zero, and reach: between neighbours it is monotonic.
-/// Those places lie in turn between the places where the slope's own slope is zero, which are known.
+/// -reach, the places in between where the slope of the quartic is zero, and reach: between neighbours it is
+/// monotonic. Those places lie in turn between the places where the slope's own slope is zero, which are
+/// known.
 Ascending<5> monotonic_stretches(const Quartic& quartic, double reach) {
   Ascending<4> slope_stretches;
   slope_stretches.add(-reach);
@@ -80,9 +81,9 @@ Ascending<5> monotonic_stretches(const Quartic& quartic, double reach) {
   return stretches;
 }
 
-/// The torus around z with its ring of radius `ring` and its tube of radius `tube`, ring + tube = 1, in a frame. u runs
-/// once around the axis, v once around the tube from the outside up. For axis y, radius 2 and tube_radius 1, before
-/// the transform:
+/// The torus around z with its ring of radius `ring` and its tube of radius `tube`, ring + tube = 1, in a
+/// frame. u runs once around the axis, v once around the tube from the outside up. For axis y, radius 2 and
+/// tube_radius 1, before the transform:
 ///
 ///     point      u     v
 ///      3  0  0   0     0
@@ -102,17 +103,19 @@ class Torus final : public Shape {
 
   Box3f bounds() const override { return bounds_; }
 
-  /// With s the distance along the line from its point p closest to the centre, p.d = 0, so |p + s d|^2 = |p|^2 + s^2
-  /// and the torus (|x|^2 + ring^2 - tube^2)^2 = 4 ring^2 (x1^2 + x2^2) becomes a quartic without a cubic term, its
-  /// numbers all about 1 wherever the ray comes from. Signs at the ends of its monotonic stretches tell how many roots
-  /// there are, so that no root is lost or invented by cancellation as in the closed formulas.
+  /// With s the distance along the line from its point p closest to the centre, p.d = 0, so |p + s d|^2 =
+  /// |p|^2 + s^2 and the torus (|x|^2 + ring^2 - tube^2)^2 = 4 ring^2 (x1^2 + x2^2) becomes a quartic without
+  /// a cubic term, its numbers all about 1 wherever the ray comes from. Signs at the ends of its monotonic
+  /// stretches tell how many roots there are, so that no root is lost or invented by cancellation as in the
+  /// closed formulas.
   bool is_hit(const Ray3f& ray, Hit& hit) const override {
     const LocalRay local = frame_.to_local(ray);
     const double speed = glm::length(local.direction);
     const Vector3d d = local.direction / speed;
     const double to_closest = -glm::dot(local.origin, d);
     const Vector3d p = local.origin + to_closest * d;
-    constexpr double kAround = 1 + 1e-6;  // all of the torus is inside this ball, and its rim outside the torus
+    constexpr double kAround =
+        1 + 1e-6;  // all of the torus is inside this ball, and its rim outside the torus
     const double squared_reach = kAround * kAround - glm::dot(p, p);
     if (!(squared_reach > 0)) return false;
     const double reach = std::sqrt(squared_reach);
@@ -123,7 +126,7 @@ class Torus final : public Shape {
     const double k = glm::dot(p, p) + ring_ * ring_ - tube_ * tube_;
     const double four = 4 * ring_ * ring_;
     const Quartic quartic = {2 * k - four * (d.x * d.x + d.y * d.y), -2 * four * (p.x * d.x + p.y * d.y),
-                             k * k - four * (p.x * p.x + p.y * p.y)};
+                             k * k - four * (p.x * p.x + p.y * p.y) - kTouch};
     const auto function = [&](double s) { return std::pair(quartic.value(s), quartic.slope(s)); };
     const Ascending<5> ends = monotonic_stretches(quartic, reach);
     bool is_inside = quartic.value(ends.items[0]) < 0;
@@ -144,9 +147,12 @@ class Torus final : public Shape {
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
     const Vector3d found = frame_.to_local(ray).at(static_cast<double>(hit.t));
     const double distance = std::hypot(found.x, found.y);
-    Vector3d outwards = distance > 0 ? Vector3d(found.x / distance, found.y / distance, 0) : Vector3d(1, 0, 0);
+    Vector3d outwards =
+        distance > 0 ? Vector3d(found.x / distance, found.y / distance, 0) : Vector3d(1, 0, 0);
     // Where the torus crosses itself, the tube may be the one around the far side of the ring.
-    const auto error = [&](const Vector3d& side) { return std::abs(glm::length(found - ring_ * side) - tube_); };
+    const auto error = [&](const Vector3d& side) {
+      return std::abs(glm::length(found - ring_ * side) - tube_);
+    };
     if (error(-outwards) < error(outwards)) outwards = -outwards;
 
     const Vector3d normal = glm::normalize(found - ring_ * outwards);
@@ -155,13 +161,16 @@ class Torus final : public Shape {
                       shapes::turn_share(glm::dot(normal, outwards), normal.z));
     constexpr double kOnAxis = 1e-6;
     const double from_axis = std::max(std::hypot(point.x, point.y), kOnAxis);
-    // An error of 1 in the quartic is one of 1 / (8 ring tube from_axis) across the surface: its gradient is that long.
-    return frame_.surface_at(point, normal, uv, std::max(1 / tube_, 1 / from_axis), Vector3d(bounds_.diagonal()),
-                             1 / (8 * ring_ * tube_ * from_axis));
+    // The gradient of the quartic is 8 ring tube from_axis long; twice, for its rounding and for kTouch.
+    return frame_.surface_at(point, normal, uv, std::max(1 / tube_, 1 / from_axis),
+                             Vector3d(bounds_.diagonal()), 1 / (4 * ring_ * tube_ * from_axis));
   }
 
  private:
-  static constexpr double kSpare = 1e-9;
+  static constexpr double kSpare = 1e-9;  // about t_min and t_max, until a root is known
+  // Added to the inside, about the rounding of the quartic: a line along the axis of a spindle only touches
+  // its tips, and is to hit them.
+  static constexpr double kTouch = 16 * kDoubleRounding;
 
   Frame frame_;
   double ring_, tube_;
@@ -170,8 +179,8 @@ class Torus final : public Shape {
 
 }  // namespace
 
-std::unique_ptr<Shape> make_torus(const Vector3d& center, const Vector3d& axis, double radius, double tube_radius,
-                                  const Transform& transform) {
+std::unique_ptr<Shape> make_torus(const Vector3d& center, const Vector3d& axis, double radius,
+                                  double tube_radius, const Transform& transform) {
   shapes::require_finite(center, "center");
   shapes::require_nonzero(axis, "axis");
   shapes::require_positive(radius, "radius");
@@ -179,8 +188,8 @@ std::unique_ptr<Shape> make_torus(const Vector3d& center, const Vector3d& axis, 
   shapes::require_regular(transform);
   const double outer = radius + tube_radius;
   return std::make_unique<Torus>(
-      Transform{transform.linear * (outer * shapes::axes_around(axis)), transform.point(center)}, radius / outer,
-      tube_radius / outer);
+      Transform{transform.linear * (outer * shapes::axes_around(axis)), transform.point(center)},
+      radius / outer, tube_radius / outer);
 }
 
 }  // namespace raytracer

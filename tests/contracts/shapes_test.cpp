@@ -1,14 +1,17 @@
 // What every shape promises, checked for every shape, placement and scale by random rays.
+#include "raytracer/shapes.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "catch.hpp"
-#include "raytracer/shapes.hpp"
 
 namespace {
 
@@ -42,7 +45,7 @@ struct Case {
   /// Whether a point where side() is 0 belongs to the surface, which is made smaller by `margin`.
   std::function<bool(const Vector3d&, double margin)> is_within;
   bool is_closed = true;
-  bool is_convex = true;  // a ray that leaves to the front never meets the shape again
+  bool is_convex = true;    // a ray that leaves to the front never meets the shape again
   bool is_spanned = false;  // by edges: a mirror turns the normal around
 };
 
@@ -59,14 +62,18 @@ double cone_side(const Vector3d& p, double base, double top) {
 double torus_side(const Vector3d& p, double ring, double tube) {
   const double rho = std::hypot(p.x, p.z);
   const double near = std::hypot(rho - ring, p.y) - tube, far = std::hypot(rho + ring, p.y) - tube;
-  return far < 0 ? -far : near;  // the inner part of a spindle is outside by parity
+  return std::max(near, -far);  // the inner part of a spindle is outside by parity
 }
 
 std::vector<Case> closed_cases() {
   const Vector3d base(0, -0.5, 0), top(0, 0.5, 0), up(0, 1, 0);
   const auto torus = [&](const char* name, double ring, double tube) {
-    return Case{name, [=](const Transform& m) { return make_torus(Vector3d(0), up, ring, tube, m); },
-                [=](const Vector3d& p) { return torus_side(p, ring, tube); }, always, true, false};
+    return Case{name,
+                [=](const Transform& m) { return make_torus(Vector3d(0), up, ring, tube, m); },
+                [=](const Vector3d& p) { return torus_side(p, ring, tube); },
+                always,
+                true,
+                false};
   };
   const auto cone = [&](const char* name, double r0, double r1) {
     return Case{name, [=](const Transform& m) { return make_cone(base, r0, top, r1, false, m); },
@@ -82,7 +89,9 @@ std::vector<Case> closed_cases() {
        },
        always},
       {"cylinder",
-       [](const Transform& m) { return make_cylinder(Vector3d(0, -0.8, 0), Vector3d(0, 0.8, 0), 0.5, false, m); },
+       [](const Transform& m) {
+         return make_cylinder(Vector3d(0, -0.8, 0), Vector3d(0, 0.8, 0), 0.5, false, m);
+       },
        cylinder_side, always},
       cone("cone", 0.7, 0),
       cone("cone on its tip", 0, 0.7),
@@ -107,7 +116,8 @@ std::vector<Case> open_cases() {
          return uv.x >= margin && uv.x <= 1 - margin && uv.y >= margin && uv.y <= 1 - margin;
        },
        false, true, true},
-      {"triangle", [=](const Transform& m) { return make_triangle(corner, corner + w, corner + h, m); }, plane_side,
+      {"triangle", [=](const Transform& m) { return make_triangle(corner, corner + w, corner + h, m); },
+       plane_side,
        [=](const Vector3d& p, double margin) {
          const glm::dvec2 uv = weights(p);
          return uv.x >= margin && uv.y >= margin && uv.x + uv.y <= 1 - margin;
@@ -117,11 +127,15 @@ std::vector<Case> open_cases() {
       {"disk", [=](const Transform& m) { return make_disk(corner, n, 0.8, m); }, plane_side,
        [=](const Vector3d& p, double margin) { return glm::length(p - corner) <= 0.8 - margin; }, false},
       {"open cylinder",
-       [](const Transform& m) { return make_cylinder(Vector3d(0, -0.8, 0), Vector3d(0, 0.8, 0), 0.5, true, m); },
+       [](const Transform& m) {
+         return make_cylinder(Vector3d(0, -0.8, 0), Vector3d(0, 0.8, 0), 0.5, true, m);
+       },
        [](const Vector3d& p) { return std::hypot(p.x, p.z) - 0.5; },
        [](const Vector3d& p, double margin) { return std::abs(p.y) <= 0.8 - margin; }, false},
       {"open cone",
-       [](const Transform& m) { return make_cone(Vector3d(0, -0.5, 0), 0.7, Vector3d(0, 0.5, 0), 0, true, m); },
+       [](const Transform& m) {
+         return make_cone(Vector3d(0, -0.5, 0), 0.7, Vector3d(0, 0.5, 0), 0, true, m);
+       },
        [](const Vector3d& p) { return std::hypot(p.x, p.z) - cone_radius(p.y, 0.7, 0); },
        [](const Vector3d& p, double margin) { return std::abs(p.y) <= 0.5 - margin; }, false},
   };
@@ -147,7 +161,8 @@ glm::dmat3 affine(Random& random) {
   return rotation(random) * m * rotation(random);
 }
 
-/// The placements of a shape that every promise is tried in: in place, moved along one axis, far away, and any.
+/// The placements of a shape that every promise is tried in: in place, moved along one axis, far away, and
+/// any.
 std::vector<Transform> placements(double scale, Random& random) {
   std::vector<Transform> all = {
       {glm::dmat3(1.0), Vector3d(0)},
@@ -193,7 +208,8 @@ struct Placed {
   std::unique_ptr<Shape> shape;
 };
 
-/// Runs `check` for each case, scale and placement; it returns a complaint or nothing, for each of `count` turns.
+/// Runs `check` for each case, scale and placement; it returns a complaint or nothing, for each of `count`
+/// turns.
 void for_each_placed(const std::vector<Case>& cases, int count,
                      const std::function<std::string(const Placed&, Random&)>& check) {
   for (const Case& kind : cases) {
@@ -216,10 +232,12 @@ void for_each_placed(const std::vector<Case>& cases, int count,
   }
 }
 
-std::string number(double x) {
-  std::string text(32, ' ');
-  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), " %.9g", x)));
-  return text;
+std::string complain(const char* what, std::initializer_list<double> numbers) {
+  std::ostringstream text;
+  text.precision(9);
+  text << what;
+  for (const double one : numbers) text << " " << one;
+  return text.str();
 }
 
 bool is_unit(const Vector3f& v) { return std::abs(glm::length(Vector3d(v)) - 1) < 1e-6; }
@@ -242,6 +260,27 @@ Vector3f random_leaving_direction(Random& random, const Vector3f& normal, float 
   }
 }
 
+/// Whether the surface passes between the points that are position_error away on either side, as a complaint.
+std::string brackets_surface(const Placed& placed, const SurfacePoint& point) {
+  const Vector3d position(point.position);
+  const Vector3d step = static_cast<double>(point.position_error) * Vector3d(point.normal);
+  double front = placed.side(position + step), back = placed.side(position - step);
+  // The mirrored edges of a quad, and the tube that ends inside another one in a spindle, face the other way.
+  const bool is_mirrored = glm::determinant(placed.to_own.linear) < 0;
+  if (placed.kind.is_spanned ? is_mirrored : placed.kind.name == "spindle" && front < 0)
+    std::swap(front, back);
+
+  double noise = 1e-15 * (1 + glm::length(position) / glm::length(placed.to_world.linear[0]));
+  if (placed.kind.name == "plane")
+    noise += 1e-7 * (1 + glm::length(placed.to_own.point(position)));  // its normal is a float
+  if (front < -noise) return complain("front of bound is behind the surface", {front});
+  // Where the body is thinner than the rounding, as at the tip of a cone, there is no room behind the
+  // surface.
+  const bool is_thin = placed.kind.is_closed && placed.side(position - 100.0 * step) > 0;
+  if (back > noise && !is_thin) return complain("back of bound is before the surface", {back});
+  return {};
+}
+
 }  // namespace
 
 TEST_CASE("a hit is a point of the surface, within bounds, with a unit normal", "[shapes][contract]") {
@@ -255,22 +294,14 @@ TEST_CASE("a hit is a point of the surface, within bounds, with a unit normal", 
                            glm::all(glm::lessThanEqual(point.position, box.upper));
     if (!is_inside) return "outside of bounds";
     if (!is_unit(point.normal) || point.shading_normal != point.normal) return "normal is not unit";
-    if (!(point.uv.x >= -1e-6f && point.uv.y >= -1e-6f) || (box.is_finite() && glm::any(glm::greaterThan(point.uv, Vector2f(1 + 1e-6f))))) {
-      if (box.is_finite()) return "uv out of range" + number(point.uv.x) + number(point.uv.y);
+    const auto is_share = [](float x) { return x >= 0 && x <= 1; };
+    if (box.is_finite() && !(is_share(point.uv.x) && is_share(point.uv.y))) {
+      return complain("uv out of range", {point.uv.x, point.uv.y});
     }
-    if (!(point.position_error >= 0) || !std::isfinite(point.position_error)) return "error bound is no number";
+    if (!(point.position_error >= 0) || !std::isfinite(point.position_error))
+      return "error bound is no number";
 
-    const Vector3d position(point.position);
-    const Vector3d step = static_cast<double>(point.position_error) * Vector3d(point.normal);
-    const double noise = 1e-15 * (1 + glm::length(position) / glm::length(placed.to_world.linear[0]));
-    double front = placed.side(position + step), back = placed.side(position - step);
-    // The mirrored edges of a quad, and the tube that ends inside another one in a spindle, face the other way.
-    if (placed.kind.is_spanned ? glm::determinant(placed.to_own.linear) < 0 : placed.kind.name == "spindle" && front < 0) {
-      std::swap(front, back);
-    }
-    if (front < -noise) return "front of bound is behind the surface" + number(front);
-    if (back > noise && !(placed.kind.name == "open")) return "back of bound is before the surface" + number(back) + number(noise);
-    return {};
+    return brackets_surface(placed, point);
   });
 }
 
@@ -284,7 +315,7 @@ TEST_CASE("the error bound is about the rounding of the numbers involved", "[sha
                         glm::length(placed.to_world.linear[2]);
     const double magnitude = glm::length(Vector3d(point.position)) + size;
     const double most = 4e-7 * magnitude;
-    return point.position_error <= most ? "" : "too wide:" + number(point.position_error) + " of" + number(most);
+    return point.position_error <= most ? "" : complain("too wide", {point.position_error, most});
   });
 }
 
@@ -295,11 +326,12 @@ TEST_CASE("the length of the direction only scales t", "[shapes][contract]") {
     const bool is_hit = placed.shape->is_hit(ray, hit);
     ray.direction *= 8.0f;
     if (placed.shape->is_hit(ray, scaled) != is_hit) return "hit and missed";
-    return hit.t == 8 * scaled.t && hit.primitive == scaled.primitive ? "" : "t" + number(hit.t) + number(scaled.t);
+    return hit.t == 8 * scaled.t && hit.primitive == scaled.primitive ? "" : complain("t", {hit.t, scaled.t});
   });
 }
 
-TEST_CASE("hits lie strictly between t_min and t_max, and a miss leaves the hit alone", "[shapes][contract]") {
+TEST_CASE("hits lie strictly between t_min and t_max, and a miss leaves the hit alone",
+          "[shapes][contract]") {
   for_each_placed(all_cases(), 500, [](const Placed& placed, Random& random) -> std::string {
     Ray3f ray = placed.random_ray(random);
     Hit hit;
@@ -328,7 +360,8 @@ TEST_CASE("hits lie strictly between t_min and t_max, and a miss leaves the hit 
 TEST_CASE("nothing is crossed before the nearest hit, nor where there is none", "[shapes][contract]") {
   for_each_placed(all_cases(), 150, [](const Placed& placed, Random& random) -> std::string {
     constexpr int kSamples = 300;
-    constexpr double kMargin = 1e-3;  // of the size of the shape, far above the rounding of a shape 1000 sizes away
+    constexpr double kMargin =
+        1e-3;  // of the size of the shape, far above the rounding of a shape 1000 sizes away
     const Ray3f ray = placed.random_ray(random);
     const Vector3d origin = placed.to_own.point(Vector3d(ray.origin));
     const Vector3d direction = placed.to_own.linear * Vector3d(ray.direction);
@@ -337,7 +370,8 @@ TEST_CASE("nothing is crossed before the nearest hit, nor where there is none", 
     const double reach = is_hit ? static_cast<double>(hit.t) : 8 / glm::length(direction);
     if (is_hit) {
       const Vector3d found = origin + reach * direction;
-      if (std::abs(placed.kind.side(found)) > kMargin) return "hit off the surface" + number(placed.kind.side(found));
+      if (std::abs(placed.kind.side(found)) > kMargin)
+        return complain("hit off the surface", {placed.kind.side(found)});
       if (!placed.kind.is_within(found, -kMargin)) return "hit beyond the edge";
     }
     double last = 0;
@@ -345,8 +379,9 @@ TEST_CASE("nothing is crossed before the nearest hit, nor where there is none", 
       const Vector3d p = origin + reach * i / kSamples * direction;
       const double side = placed.kind.side(p);
       if (std::abs(side) < kMargin) continue;
-      const bool is_away_from_edge = placed.kind.is_within(p, 0.1) && placed.kind.is_within(p - reach / kSamples * direction, 0.1);
-      if (last * side < 0 && is_away_from_edge) return "went through at" + number(reach * i / kSamples) + " of" + number(reach);
+      const Vector3d previous = p - reach / kSamples * direction;
+      const bool is_away_from_edge = placed.kind.is_within(p, 0.1) && placed.kind.is_within(previous, 0.1);
+      if (last * side < 0 && is_away_from_edge) return complain("went through at", {reach * i / kSamples});
       last = side;
     }
     return {};
@@ -360,7 +395,8 @@ TEST_CASE("a closed shape is crossed an even number of times from outside", "[sh
     int crossings = 0;
     Hit hit;
     for (; placed.shape->is_hit(ray, hit) && crossings < 10; ++crossings) ray.t_min = hit.t;
-    return crossings % 2 == 0 && crossings <= 4 ? "" : "crossings:" + number(crossings);
+    return crossings % 2 == 0 && crossings <= 4 ? ""
+                                                : complain("crossings", {static_cast<double>(crossings)});
   });
 }
 
@@ -391,7 +427,7 @@ TEST_CASE("a ray that leaves a convex or flat shape does not meet it again", "[s
     Hit again;
     if (!placed.shape->is_hit(next, again)) return {};
     const double cosine = glm::dot(Vector3d(point.normal), glm::normalize(Vector3d(direction)));
-    return "meets itself at t" + number(again.t) + ", cosine" + number(cosine) + ", bound" + number(point.position_error);
+    return complain("meets itself: t, cosine, bound", {again.t, cosine, point.position_error});
   });
 }
 
@@ -404,10 +440,16 @@ TEST_CASE("a ray that leaves a closed shape inwards crosses its inside", "[shape
     const SurfacePoint point = placed.shape->surface_at(ray, hit);
     const Ray3f next = leaving(point, random_leaving_direction(random, point.normal, -1), -1);
     Hit again;
-    const double depth = placed.side(Vector3d(next.origin));
-    if (!placed.shape->is_hit(next, again)) return depth < -1e-13 ? "no way out" : "";
-    const Vector3d middle = Vector3d(next.origin) + 0.5 * static_cast<double>(again.t) * Vector3d(next.direction);
-    return placed.side(middle) < 1e-15 * glm::length(Vector3d(next.origin)) ? "" : "meets itself at t" + number(again.t);
+    // Beside an edge the rounding may carry the origin out through the neighbouring face; those of a cube are
+    // floats.
+    const double size = glm::length(placed.to_world.linear[0]);
+    const double noise =
+        placed.kind.name == "cube" ? 1e-7 * glm::length(Vector3d(point.position)) / size : 1e-13;
+    if (placed.side(Vector3d(next.origin)) > -noise) return {};
+    if (!placed.shape->is_hit(next, again)) return "no way out";
+    const Vector3d middle =
+        Vector3d(next.origin) + 0.5 * static_cast<double>(again.t) * Vector3d(next.direction);
+    return placed.side(middle) < 0 ? "" : complain("meets itself at t", {again.t});
   });
 }
 
@@ -424,11 +466,11 @@ TEST_CASE("a ray that leaves a torus meets it only farther on", "[shapes][contra
     const Ray3f next = leaving(point, random_leaving_direction(random, point.normal, 1), 1);
     Hit again;
     if (!placed.shape->is_hit(next, again)) return {};
-    // Towards the axis the surface bends up, at most like a circle of radius ring - tube: a ray that starts at the
-    // height h along the surface meets it after sqrt(2 h radius).
+    // Towards the axis the surface bends up, at most like a circle of radius ring - tube: a ray that starts
+    // at the height h along the surface meets it after sqrt(2 h radius).
     const double size = glm::length(placed.to_world.linear[0]);
     const double distance = static_cast<double>(again.t) * glm::length(Vector3d(next.direction));
     const double least = 0.1 * std::sqrt(static_cast<double>(point.position_error) * 0.4 * size);
-    return distance > least ? "" : "meets itself after" + number(distance) + ", not" + number(least);
+    return distance > least ? "" : complain("meets itself after, not", {distance, least});
   });
 }

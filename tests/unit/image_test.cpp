@@ -59,7 +59,7 @@ Image pattern(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const int noise = (x / 3 * 7919 + y * 104729) % 256;
+      const int noise = (x / 3 * 7919 + y * 10007) % 256;
       image.set(x, y, Color3f(x % 256, y % 256, noise));
     }
   }

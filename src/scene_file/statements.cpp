@@ -1,0 +1,241 @@
+// The statements: include, let, for, if, define, and the use of what was defined.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/suggest.hpp"
+#include "scene_file/builder.hpp"
+
+namespace raytracer::scene_file {
+namespace {
+
+// Reading a file is no small step: ten files that each include the next one ten times would be 10^10 of them.
+constexpr std::uint64_t kStepsPerInclude = 10'000;
+constexpr std::uint64_t kStepsPerUse = 10;
+
+PropertyType parameter_type(ValueType type) {
+  switch (type) {
+    case ValueType::kBoolean: return PropertyType::kBoolean;
+    case ValueType::kVector: return PropertyType::kVector;
+    case ValueType::kColor: return PropertyType::kColor;
+    case ValueType::kString: return PropertyType::kString;
+    default: return PropertyType::kNumber;
+  }
+}
+
+}  // namespace
+
+void Builder::build_include(const IncludeNode& include, const Surroundings& around) {
+  const Place place{around.source, include.file.span};
+  if (!spend(kStepsPerInclude, place)) return;
+  if (include_depth_ >= limits_.include_depth) {
+    return halt(place, fmt::format("files include each other more than {} deep", limits_.include_depth),
+                "does a file include itself?");
+  }
+  const Value file = evaluator_.evaluate(include.file, *around.source, around.frame->values);
+  const SyntaxTree* tree = files_.include(std::string(file.text), place, diagnostics_);
+  if (tree == nullptr) return;
+  Surroundings inside = around;
+  inside.source = tree->source;
+  const Diagnostics::UsedFrom used_from(diagnostics_, {around.source, {include.keyword.begin, include.file.span.end}});
+  ++include_depth_;
+  build_items(tree->items, inside);
+  --include_depth_;
+}
+
+void Builder::build_let(const LetNode& let, const Surroundings& around, std::size_t let_base) {
+  const Place place{around.source, let.name_span};
+  Value value = evaluator_.evaluate(*let.value, *around.source, around.frame->values);
+  if (!spend(1, place)) return;
+  auto& bindings = evaluator_.bindings();
+  const std::size_t known = bindings.find(let.name, around.frame->values);
+  if (known != Bindings<NamedValue>::npos && known >= let_base) {
+    diagnostics_.error(place, fmt::format("'{}' is assigned twice", place.text()), "a name keeps its value; take a second name",
+                       {{bindings.at(known).place, "first assigned here"}});
+    return;
+  }
+  if (around.is_top && let_base == around.let_base) {
+    const auto replacement = replaced_lets_.find(let.name);
+    const bool replaces = replacement != replaced_lets_.end();
+    if (replaces) value = replaced(replacement->second, value, place);
+    top_level_lets_.push_back({std::string(place.text()), value, replaces});
+  }
+  bindings.push(let.name, {value, &let, false}, place);
+}
+
+// What the caller says in place of a let's own value; it must be of the same type.
+Value Builder::replaced(const Replacement& replacement, const Value& original, const Place& place) const {
+  if (original.type == ValueType::kString) return Value::string(replacement.text);
+  const Value& value = replacement.value;
+  const bool fits = value.type == original.type || (value.is_vector() && original.is_vector());
+  if (original.is_known() && !fits) {
+    throw Error(ErrorKind::kUsage, fmt::format("--set {}={}: '{}' is {} in the scene, not {}", place.text(), replacement.text,
+                                               place.text(), describe(original.type), describe(value.type)));
+  }
+  return value;
+}
+
+// Both ends belong to the loop; the number of turns is known before the first one.
+void Builder::build_for(const ForNode& loop, const Surroundings& around) {
+  const Place place{around.source, {loop.keyword.begin, loop.name_span.end}};
+  bool known = spend(1, place), depends_on_time = around.depends_on_time;
+  const auto number = [&](const Expression* expression, double otherwise) {
+    if (expression == nullptr) return otherwise;
+    const Value value = evaluator_.evaluate(*expression, *around.source, around.frame->values);
+    if (value.is_known() && !value.is_number()) {
+      diagnostics_.error({around.source, expression->span}, fmt::format("'for' counts in numbers, found {}", describe(value.type)));
+    }
+    known = known && value.is_number();
+    depends_on_time = depends_on_time || value.depends_on_time;
+    return value.x();
+  };
+  const double from = number(loop.from, 0), to = number(loop.to, 0), step = number(loop.step, 1);
+  if (!known) return;
+  if (step == 0) {
+    diagnostics_.error({around.source, loop.step->span}, "a loop with a 'step' of 0 never ends", "step 1");
+    return;
+  }
+  const double turns = std::floor((to - from) / step + 1e-9) + 1;
+  if (!(turns <= static_cast<double>(limits_.steps))) {
+    diagnostics_.error(place, fmt::format("this loop has {:.0f} turns; a scene has at most {} steps", turns, limits_.steps),
+                       "--limit steps=N allows more");
+    return;
+  }
+  auto& bindings = evaluator_.bindings();
+  NameTable names;
+  Surroundings inside = around;
+  inside.is_top = false;
+  inside.names = &names;
+  inside.depends_on_time = depends_on_time;
+  for (double k = 0; k < turns && !halted_; ++k) {
+    const std::size_t value_height = bindings.height(), definition_height = definitions_.height(),
+                      material_height = materials_.height();
+    if (!spend(1, place)) break;
+    names.clear();
+    inside.let_base = value_height;
+    inside.definition_base = definition_height;
+    inside.material_base = material_height;
+    Value value = Value::number(from + k * step);
+    value.depends_on_time = depends_on_time;
+    bindings.push(loop.name, {value, nullptr, false}, {around.source, loop.name_span});
+    build_items(loop.items, inside);
+    bindings.pop_to(value_height);
+    definitions_.pop_to(definition_height);
+    materials_.pop_to(material_height);
+  }
+}
+
+void Builder::build_if(const IfNode& choice, const Surroundings& around) {
+  const Value condition = evaluator_.evaluate(*choice.condition, *around.source, around.frame->values);
+  if (!spend(1, {around.source, choice.keyword}) || !condition.is_known()) return;
+  if (!condition.is_boolean()) {
+    diagnostics_.error({around.source, choice.condition->span},
+                       fmt::format("'if' takes true or false, found {}", describe(condition.type)), "if t > 2 { … }");
+    return;
+  }
+  auto& bindings = evaluator_.bindings();
+  const std::size_t value_height = bindings.height(), definition_height = definitions_.height();
+  Surroundings inside = around;
+  inside.is_top = false;
+  inside.let_base = value_height;
+  inside.definition_base = definition_height;
+  inside.depends_on_time = around.depends_on_time || condition.depends_on_time;
+  build_items(condition.is_true() ? choice.items : choice.else_items, inside);
+  bindings.pop_to(value_height);
+  definitions_.pop_to(definition_height);
+}
+
+Value Builder::parameter_default(const ParameterNode& parameter, const Surroundings& around) {
+  std::array<Value, 3> values;
+  const auto count = parameter.values.size();
+  bool known = true;
+  for (std::size_t i = 0; i < std::min(count, values.size()); ++i) {
+    values[i] = evaluator_.evaluate(parameter.values[i], *around.source, around.frame->values);
+    known = known && values[i].is_known();
+  }
+  if (!known || count == 1) return values[0];
+  const bool is_vector = count == 3 && values[0].is_number() && values[1].is_number() && values[2].is_number();
+  if (is_vector) return Value::of_vector({values[0].x(), values[1].x(), values[2].x()});
+  diagnostics_.error({around.source, {parameter.values.front().span.begin, parameter.values.back().span.end}},
+                     fmt::format("the default of a parameter is one value or three numbers, found {} values", count),
+                     "(size 1, at 0 1 0, hat black)");
+  return {};
+}
+
+void Builder::build_define(const DefineNode& define, const Surroundings& around) {
+  const Place place{around.source, define.name_span};
+  if (!spend(1, place)) return;
+  auto definition = std::make_shared<Definition>();
+  definition->node = &define;
+  definition->source = around.source;
+  definition->name = place.text();
+  definition->frame = *around.frame;
+  for (const ParameterNode& parameter : define.parameters) {
+    PropertyRow row;
+    row.name = around.source->text(parameter.name_span);
+    definition->defaults.push_back(parameter_default(parameter, around));
+    row.type = parameter_type(definition->defaults.back().type);
+    definition->parameters.push_back(row);
+  }
+  definition->row.name = definition->name;
+  definition->row.placing = Placing::kAffine;
+  definition->row.takes_material = true;
+  definition->row.properties = definition->parameters;
+  const std::size_t known = definitions_.find(define.name, around.frame->definitions);
+  if (known != decltype(definitions_)::npos && known >= around.definition_base) {
+    diagnostics_.error(place, fmt::format("'{}' is defined twice", definition->name), {},
+                       {{definitions_.at(known).place, "first defined here"}});
+    return;
+  }
+  // Its own name belongs to what the body sees: a definition may use itself.
+  definition->heights = {evaluator_.bindings().height(), definitions_.height() + 1, materials_.height()};
+  definitions_.push(define.name, std::move(definition), place);
+}
+
+void Builder::build_use(const std::shared_ptr<const Definition>& definition, const BlockNode& block,
+                        const Surroundings& around) {
+  const Place place{around.source, block.header()};
+  if (!spend(kStepsPerUse, place)) return;
+  if (use_depth_ >= limits_.nesting) {
+    return halt(place, fmt::format("uses of definitions are nested more than {} deep", limits_.nesting),
+                "a definition that uses itself needs an 'if' that ends it");
+  }
+  const std::string_view name = block.words.empty() ? std::string_view() : around.source->text(block.words[0]);
+  register_name(definition->row, name, place, around);
+  std::vector<Value> arguments = definition->defaults;
+  BlockContext context(*this, definition->row, block, around, name);
+  context.parameters_ = &arguments;
+  if (!fill(context, nullptr)) return;
+
+  const Diagnostics::UsedFrom used_from(diagnostics_, place);
+  auto& bindings = evaluator_.bindings();
+  const std::array<std::size_t, 3> heights = {bindings.height(), definitions_.height(), materials_.height()};
+  Frame frame;
+  frame.values = {heights[0], definition->heights[0], &definition->frame.values};
+  frame.definitions = {heights[1], definition->heights[1], &definition->frame.definitions};
+  frame.materials = {heights[2], definition->heights[2], &definition->frame.materials};
+  NameTable names;
+  Surroundings inside;
+  inside.source = definition->source;
+  inside.kind = definition->name;
+  inside.to_world = context.placed(Vector3d(0));
+  inside.material = context.material_.value_or(around.material);
+  inside.frame = &frame;
+  inside.names = &names;
+  inside.let_base = heights[0];
+  inside.definition_base = heights[1];
+  inside.material_base = heights[2];
+  inside.depends_on_time = around.depends_on_time || context.depends_on_time_;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const ParameterNode& parameter = definition->node->parameters[i];
+    bindings.push(parameter.name, {arguments[i], nullptr, false}, {definition->source, parameter.name_span});
+  }
+  ++use_depth_;
+  build_items(definition->node->items, inside);
+  --use_depth_;
+  bindings.pop_to(heights[0]);
+  definitions_.pop_to(heights[1]);
+  materials_.pop_to(heights[2]);
+}
+
+}  // namespace raytracer::scene_file
