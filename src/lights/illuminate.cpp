@@ -33,7 +33,7 @@ Illumination illuminate(const Light& light, const Vector3f& position, const Vect
   const Vector3f to_light = light.position - position;
   const float distance = glm::length(to_light);
   const float facing = glm::dot(to_light, normal);
-  if (!(facing > 0) || !(distance > 0)) return {};
+  if (!(facing > 0) || !(distance > 0 && distance < kInfinity)) return {};
   const Vector3f direction = to_light / distance;
   float strength = facing / distance * fade(light.falloff, distance);
   if (light.kind == Light::Kind::kSpot) strength *= cone_share(light, -glm::dot(direction, light.direction));

@@ -49,8 +49,10 @@ constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits 
 
 /// Point `index` of the sequence that belongs to `seed`, in [0, 1)^2.
 constexpr Vector2f sobol_point(std::uint32_t index, std::uint32_t seed) {
-  return {unit_float(owen_scramble(reverse_bits(index), hash_bits(seed))),
-          unit_float(owen_scramble(sobol_second(index), hash_bits(seed ^ 0x9E3779B9U)))};
+  // The second seed is a hash of the first: hashes of two numbers that differ by a constant are not independent enough.
+  const std::uint32_t first = hash_bits(seed), second = hash_bits(first ^ 0x9E3779B9U);
+  return {unit_float(owen_scramble(reverse_bits(index), first)),
+          unit_float(owen_scramble(sobol_second(index), second))};
 }
 
 }  // namespace raytracer

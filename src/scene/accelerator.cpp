@@ -23,6 +23,14 @@ struct FiniteShapes {
   std::vector<std::uint32_t> indices;
 };
 
+// Embree (its rays' valid()) takes no coordinate beyond 1.844e18. Shapes end at 1e18; only a plane is met farther out,
+// and nothing in the tree can be seen from there in single precision.
+bool is_within_reach(const Ray3f& ray) {
+  constexpr float kFarthest = 1.8e18f;
+  const Vector3f largest = glm::max(glm::abs(ray.origin), glm::abs(ray.direction));
+  return largest.x < kFarthest && largest.y < kFarthest && largest.z < kFarthest;
+}
+
 Ray3f to_ray(const RTCRay& ray) {
   return {{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, ray.tnear, ray.tfar};
 }
@@ -129,7 +137,7 @@ Accelerator::~Accelerator() = default;
 bool Accelerator::is_hit(const Ray3f& ray, Hit& hit) const {
   Hit endless_hit;
   const bool hits_endless = !tree_->endless.is_empty() && tree_->endless.is_hit(ray, endless_hit);
-  if (tree_->scene != nullptr) {
+  if (tree_->scene != nullptr && is_within_reach(ray)) {
     RTCRayHit query{};
     query.ray = to_embree(ray);
     // So near a tie that only the order of the shapes can settle it: both are looked at.
@@ -149,7 +157,7 @@ bool Accelerator::is_hit(const Ray3f& ray, Hit& hit) const {
 }
 
 bool Accelerator::is_occluded(const Ray3f& ray) const {
-  if (tree_->scene != nullptr) {
+  if (tree_->scene != nullptr && is_within_reach(ray)) {
     RTCRay query = to_embree(ray);
     embree::occluded(tree_->scene, query);
     if (query.tfar < 0) return true;
