@@ -131,7 +131,7 @@ class ArgumentReader {
     if (row_.type == PropertyType::kColor && range.most == 1 && x > 1 && x <= 255) {
       hint = "1 is full strength; 0..255 is written #rrggbb";
     }
-    error(node.span, fmt::format("'{}' must be {}, found {}", row_.name, describe_range(range), found), hint);
+    error(node.span, fmt::format("'{}' must be {}, found {}", row_.name, describe_range(range, x), found), hint);
     return false;
   }
 

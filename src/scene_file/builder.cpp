@@ -73,6 +73,7 @@ void Builder::build_stray_property(const PropertyNode& property, const Surroundi
 
 void Builder::report_unknown_kind(const BlockNode& block, const Surroundings& around) {
   const std::string_view word = around.source->text(block.kind);
+  if (!diagnostics_.is_listening()) return diagnostics_.error({around.source, block.kind}, {});
   std::vector<std::string_view> known;
   for (const KindRow& row : all_kinds()) known.push_back(row.name);
   for (std::size_t i = 0; i < definitions_.height(); ++i) {
@@ -128,7 +129,8 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
   for (const KindRow& row : all_kinds()) {
     if (row.name == word && !row.variant.empty()) variants.push_back(row.variant);
   }
-  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty()) return plain;
+  const bool is_to_come = word_at(0) == "area";
+  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty() && !is_to_come) return plain;
   report_unknown_variant(block, around);
   return nullptr;
 }
@@ -218,6 +220,10 @@ std::optional<std::uint32_t> Builder::find_material(std::string_view name, const
     const std::uint32_t index = materials_.at(position).value;
     material_uses_[index].used = true;
     return index;
+  }
+  if (!diagnostics_.is_listening()) {
+    diagnostics_.error(place, {});
+    return std::nullopt;
   }
   std::vector<std::string_view> known;
   for (std::size_t i = 0; i < materials_.height(); ++i) {

@@ -47,6 +47,8 @@ class Diagnostics {
   /// While muted, errors are dropped: what follows from a mistake that has been told is none.
   void mute(bool muted) { muted_ = muted; }
 
+  /// Whether a further error would be told: where not, nobody needs to look for a suggestion.
+  bool is_listening() const { return !muted_ && errors_ < kMostErrors; }
   bool has_errors() const { return errors_ > 0; }
   std::size_t error_count() const { return errors_; }
   /// The messages from the top of the text to its end, and how many more there were; leaves the collector empty.

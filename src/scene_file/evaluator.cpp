@@ -113,6 +113,7 @@ Value Evaluator::look_up(NameId name, const Visibility& visibility) {
 }
 
 std::string Evaluator::suggestion_for(std::string_view name, const Visibility& visibility) const {
+  if (!diagnostics_.is_listening()) return {};
   std::vector<std::string_view> known = {"pi", "t", "frame", "true", "false"};
   for (std::size_t i = 0; i < bindings_.height(); ++i) {
     if (visibility.shows(i)) known.push_back(names_.text(bindings_.at(i).name));

@@ -113,7 +113,7 @@ const Expression* ExpressionParser::parse_list(Span open) {
       tokens_.error(open, "this '(' is never closed", "')' is missing");
     } else if (!tokens_.is(TokenType::kBad)) {
       tokens_.error(tokens_.current().span, fmt::format("unexpected '{}' in an expression", tokens_.text()),
-                    "an operator or ')' would fit");
+                    "an operator or ')' would fit; a vector has commas: (1, 2, 3)");
     }
     return unknown(open);
   }

@@ -15,6 +15,8 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_foreign(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 bool is_word_character(char c) { return is_letter(c) || is_digit(c) || is_foreign(c); }
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+constexpr std::string_view kNoBreakSpace = "\xC2\xA0";
+
 // Of a number that no double holds: whether it is too small rather than too large.
 bool is_tiny(std::string_view number) {
   const std::size_t exponent = number.find_first_of("eE");
@@ -48,6 +50,7 @@ void Lexer::skip_block_comment() {
   do {
     if (position_ >= text_.size()) {
       error({begin, begin + 2}, "this comment is never closed", "'*/' is missing");
+      ended_in_comment_ = true;
       break;
     }
     const bool opens = at(position_) == '/' && at(position_ + 1) == '*';
@@ -105,7 +108,7 @@ Token Lexer::next(LexMode mode) {
 
 Token Lexer::lex_word() {
   const std::uint32_t begin = position_;
-  while (is_word_character(at(position_))) ++position_;
+  while (is_word_character(at(position_)) && !(is_foreign(at(position_)) && starts_with_lookalike())) ++position_;
   return token(TokenType::kWord, begin);
 }
 
@@ -212,18 +215,24 @@ Token Lexer::unexpected_character() {
 // Signs that word processors put where a keyboard has " and -.
 bool Lexer::starts_with_lookalike() const {
   const std::string_view rest = text_.substr(position_, 3);
+  if (rest.starts_with(kNoBreakSpace)) return true;
   return rest == "\xE2\x80\x9C" || rest == "\xE2\x80\x9D" || rest == "\xE2\x80\x9E" || rest == "\xE2\x88\x92" ||
          rest == "\xE2\x80\x93";
 }
 
 Token Lexer::lex_lookalike() {
   const std::uint32_t begin = position_;
+  if (text_.substr(position_).starts_with(kNoBreakSpace)) {
+    position_ += 2;
+    error({begin, position_}, "unexpected no-break space", "write a plain space");
+    return token(TokenType::kBad, begin);
+  }
   const std::string_view sign = text_.substr(position_, 3);
   const bool is_minus = sign == "\xE2\x88\x92" || sign == "\xE2\x80\x93";
   position_ += 3;
   if (is_minus) {
     while (is_word_character(at(position_)) || at(position_) == '.') ++position_;
-    error({begin, begin + 3}, fmt::format("'{}' is not a minus sign", sign), "write '-'");
+    error({begin, position_}, fmt::format("'{}' is not a minus sign", sign), "write '-'");
   } else {
     while (position_ < text_.size() && text_[position_] != '\n' && text_[position_] != '\r') {
       const std::string_view here = text_.substr(position_, 3);
@@ -233,7 +242,7 @@ Token Lexer::lex_lookalike() {
         break;
       }
     }
-    error({begin, begin + 3}, fmt::format("'{}' is not a quotation mark", sign), "strings stand between \"…\"");
+    error({begin, position_}, fmt::format("'{}' is not a quotation mark", sign), "strings stand between \"…\"");
   }
   return token(TokenType::kBad, begin);
 }

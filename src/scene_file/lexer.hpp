@@ -43,6 +43,8 @@ class Lexer {
   Lexer quiet_copy() const;
 
   const std::vector<Span>& comments() const { return comments_; }
+  /// Whether a comment that is never closed has swallowed the rest of the text.
+  bool ended_in_comment() const { return ended_in_comment_; }
 
  private:
   void skip_blanks_and_comments();
@@ -65,6 +67,7 @@ class Lexer {
   Diagnostics* diagnostics_;  // null in a quiet copy
   std::uint32_t position_ = 0;
   std::vector<Span> comments_;
+  bool ended_in_comment_ = false;
 };
 
 /// The text between the quotes of a kString token, its escapes resolved.

@@ -49,6 +49,7 @@ class Parser {
   std::span<const ItemNode> parse_items(Context context);
   void parse_item(Context context, std::vector<ItemNode>& items);
   std::span<const ItemNode> parse_body(Span keyword, Context context);
+  void parse_bad_block(std::vector<ItemNode>& items);
   int words_before_brace() const;
   const BlockNode* parse_block(int words);
   const PropertyNode* parse_property(Context context);
@@ -115,7 +116,47 @@ void Parser::parse_item(Context context, std::vector<ItemNode>& items) {
   }
   const int words = words_before_brace();
   if (words > 0) return add(items, parse_block(words));
+  if (find_kind(tokens_.text()) != nullptr && !is_property_of(context, tokens_.text())) return parse_bad_block(items);
   add(items, parse_property(context));
+}
+
+// `sphere "ball" { … }`, `sphere radius 1 }`, `sphere`: a kind of block that no '{' follows as it should.
+void Parser::parse_bad_block(std::vector<ItemNode>& items) {
+  const Span kind = tokens_.current().span;
+  constexpr int kMostJunk = 4;
+  Lexer ahead = tokens_.ahead();
+  Token token = ahead.next(LexMode::kValues);
+  const Span junk_begin = token.span;
+  Span junk_end = token.span;
+  int count = 0;
+  while (count < kMostJunk && (token.type == TokenType::kWord || token.type == TokenType::kString ||
+                              token.type == TokenType::kNumber || token.type == TokenType::kOperator)) {
+    junk_end = token.span;
+    token = ahead.next(LexMode::kValues);
+    ++count;
+  }
+  if (token.type == TokenType::kOpenBrace && count > 0) {
+    const Span junk = {junk_begin.begin, junk_end.end};
+    tokens_.error(junk, fmt::format("{} can't be the name of a {}", tokens_.text(junk), tokens_.text(kind)),
+                  fmt::format("a name is one word: {} ball {{ … }}", tokens_.text(kind)));
+    while (!tokens_.is(TokenType::kOpenBrace)) tokens_.advance();
+    BlockNode block;
+    block.kind = kind;
+    block.kind_name = tokens_.name_of(kind);
+    block.items = parse_body(kind, tokens_.text(kind));
+    block.end = tokens_.previous_end();
+    return add(items, tree_->arena.make(block));
+  }
+  tokens_.error(kind, fmt::format("'{}' needs braces", tokens_.text(kind)), fmt::format("{} {{ … }}", tokens_.text(kind)));
+  tokens_.advance();
+  // What follows are its properties, up to a '}' or the next block.
+  tokens_.mute(true);
+  while (tokens_.is(TokenType::kWord) && words_before_brace() == 0 && !is_reserved(tokens_.text()) &&
+         find_kind(tokens_.text()) == nullptr) {
+    parse_property(tokens_.text(kind));
+  }
+  if (depth_ == 0 && tokens_.is(TokenType::kCloseBrace)) tokens_.advance();
+  tokens_.mute(false);
 }
 
 // How many words, the current one included, stand before a '{' if a block begins here; 0 if none does.
@@ -145,8 +186,10 @@ std::span<const ItemNode> Parser::parse_body(Span keyword, Context context) {
   if (tokens_.is(TokenType::kCloseBrace)) {
     tokens_.advance();
   } else {
-    tokens_.error(open, fmt::format("this '{{' of '{}' is never closed", tokens_.text(keyword)), "'}' is missing");
     tokens_ended_open_ = true;
+    if (!tokens_.ended_in_comment()) {
+      tokens_.error(open, fmt::format("this '{{' of '{}' is never closed", tokens_.text(keyword)), "'}' is missing");
+    }
   }
   return items;
 }
@@ -210,18 +253,24 @@ const PropertyNode* Parser::parse_property(Context context) {
   tokens_.advance();
   std::vector<ValueNode> values;
   if (tokens_.is(TokenType::kWord) && !begins_next_property(context)) values.push_back(take_value());
+  bool is_bad = false;
   while (true) {
-    if (current_is_value()) {
-      values.push_back(take_value());
-    } else if (tokens_.is(TokenType::kOperator)) {
-      ValueNode bad;
-      bad.span = tokens_.current().span;
+    const bool is_stray = tokens_.is(TokenType::kOperator) || tokens_.is(TokenType::kCloseParenthesis);
+    const bool is_glued = is_bad && tokens_.is(TokenType::kWord) && tokens_.current().span.begin == tokens_.previous_end();
+    if (is_stray && !is_bad) {
+      values.push_back({});
+      values.back().span = tokens_.current().span;
       report_stray();
-      values.push_back(bad);
+    } else if (current_is_value() || is_stray || is_glued) {
+      values.push_back(take_value());
     } else {
       break;
     }
+    // One slip among the values is enough said about them.
+    is_bad = is_bad || values.back().kind == ValueKind::kBad;
+    tokens_.mute(is_bad);
   }
+  tokens_.mute(false);
   property.values = tree_->arena.copy(std::span<const ValueNode>(values));
   return tree_->arena.make(property);
 }
@@ -234,7 +283,12 @@ const IncludeNode* Parser::parse_include() {
     if (!tokens_.is(TokenType::kBad)) {
       tokens_.error(include.keyword, "'include' needs the name of a file", "include \"parts.txt\"");
     }
-    if (!tokens_.is(TokenType::kCloseBrace) && !tokens_.is(TokenType::kEnd)) tokens_.advance();
+    if (tokens_.is(TokenType::kBad) || (tokens_.is(TokenType::kWord) && words_before_brace() == 0)) tokens_.advance();
+    if (tokens_.is(TokenType::kOpenBrace)) {
+      tokens_.mute(true);
+      skip_nested_braces();
+      tokens_.mute(false);
+    }
     return nullptr;
   }
   include.file = take_value();
@@ -452,7 +506,9 @@ void Parser::report_stray() {
     default: {
       while (current_is_value()) take_value();
       const Span all = {stray.span.begin, tokens_.previous_end()};
-      tokens_.error(all, fmt::format("{} belongs to no property", tokens_.text(stray.span)),
+      const bool several = all.end > stray.span.end;
+      tokens_.error(all, several ? "these values belong to no property"
+                                 : fmt::format("{} belongs to no property", tokens_.text(all)),
                     "a property begins with its name: radius 1");
       return;
     }

@@ -96,7 +96,8 @@ std::string describe_type(const PropertyRow& row) {
     case PropertyType::kSize: return "one number or three";
     case PropertyType::kPixels: return "two whole numbers";
     case PropertyType::kColor: return "a colour";
-    case PropertyType::kWord: return fmt::format("one of {}", fmt::join(row.words, ", "));
+    case PropertyType::kWord:
+      return row.words.size() == 1 ? std::string(row.words[0]) : fmt::format("one of {}", fmt::join(row.words, ", "));
     case PropertyType::kMaterial: return "a material";
     case PropertyType::kAxisAngle: return "an axis x y z and an angle";
     case PropertyType::kMatrix: return "twelve numbers";
@@ -123,7 +124,7 @@ std::string example_value(const PropertyRow& row) {
   return {};
 }
 
-std::string describe_range(const Range& range) {
+std::string describe_range(const Range& range, double value) {
   const bool has_least = range.least > kAnyNumber.least;
   const bool has_most = range.most < kAnyNumber.most;
   const std::string least = detail::number_text(range.least);
@@ -132,6 +133,7 @@ std::string describe_range(const Range& range) {
     return range.above_least ? fmt::format("above {} and at most {}", least, most)
                              : fmt::format("between {} and {}", least, most);
   }
+  if (has_least && value > range.most) return fmt::format("at most {}", most);
   if (has_least) return range.above_least ? "greater than " + least : "at least " + least;
   if (has_most) return "at most " + most;
   return fmt::format("within {}", most);

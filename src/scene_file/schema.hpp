@@ -139,7 +139,8 @@ bool is_property_of(std::string_view kind, std::string_view property);
 std::string describe_type(const PropertyRow& row);
 /// A value that would be right: "0 1 0".
 std::string example_value(const PropertyRow& row);
-std::string describe_range(const Range& range);
+/// The range in words; of a one-sided range the side that `value` is on.
+std::string describe_range(const Range& range, double value = 0);
 /// The default as it would be written, or words for it; empty where there is none.
 std::string describe_default(const KindRow& kind, const PropertyRow& row);
 

@@ -35,6 +35,9 @@ class TokenReader {
   /// A lexer that stands behind the current token.
   Lexer ahead() const { return lexer_.quiet_copy(); }
   const std::vector<Span>& comments() const { return lexer_.comments(); }
+  bool ended_in_comment() const { return lexer_.ended_in_comment(); }
+  /// While muted, the tokens read and the errors made say nothing.
+  void mute(bool muted) { diagnostics_.mute(muted); }
 
   const Source& source() const { return source_; }
   Arena& arena() { return arena_; }
