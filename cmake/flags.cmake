@@ -5,7 +5,10 @@ target_compile_options(raytracer_flags INTERFACE
   $<$<BOOL:${RAYTRACER_WERROR}>:-Werror>
   $<$<BOOL:${RAYTRACER_NATIVE}>:-march=native>
   # Nobody reads errno after a maths function, and no maths here traps; both keep loops from being vectorised.
-  -fno-math-errno -fno-trapping-math)
+  -fno-math-errno -fno-trapping-math
+  # A product and a sum are rounded one by one, wherever the compiler puts them: a formula means the same number in a
+  # loop over packets as for one ray, and on every processor.
+  -ffp-contract=off)
 if(RAYTRACER_SANITIZE)
   target_compile_options(raytracer_flags INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

@@ -33,7 +33,8 @@ class RenderObserver {
 
 /// What a render did, for those who ask.
 struct RenderStatistics {
-  std::uint64_t rays = 0;  ///< camera, shadow and reflected rays
+  std::uint64_t rays = 0;    ///< camera, shadow and reflected rays
+  double build_seconds = 0;  ///< spent waiting for `scene_at`
 };
 
 /// Renders the scene at `time`. The picture is a pure function of scene and settings: the same bytes for any

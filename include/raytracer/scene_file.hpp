@@ -1,7 +1,9 @@
 // From text to a scene. The language is described in docs/scene-language.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,7 +24,8 @@ struct Diagnostic {
   std::uint32_t end_line = 0, end_column = 0;  ///< just behind the last character
   std::string message;                         ///< what was found
   std::string suggestion;                      ///< what would be right; may be empty
-  std::string source_line;                     ///< the text of `line`
+  std::string source_line;                     ///< the text of `line`; of a very long one the part around `column`
+  std::uint32_t source_column = 1;             ///< where in the line source_line begins
   std::vector<Diagnostic> notes;               ///< other places that belong to it
 };
 
@@ -72,12 +75,24 @@ struct Animation {
   int frames() const;
 };
 
+/// Says all that a picture's pixels follow from: the evaluated scene and how it is rendered. What another version of the
+/// library makes of it may differ.
+using SceneHash = std::array<std::uint64_t, 2>;
+
+/// What is known of a moment before it is rendered.
+struct SceneMoment {
+  RenderSettings settings;
+  SceneHash hash{};
+};
+
 /// A scene file, read and checked.
 struct LoadedScene {
   std::vector<Diagnostic> diagnostics;
   std::vector<std::string> files_read;  ///< as canonical paths
-  RenderSettings settings;
+  RenderSettings settings;  ///< at the time 0
   SceneAt scene_at;  ///< empty unless ok(); throws Error (kScene) where the scene is wrong at that time alone
+  /// As scene_at; a scene_at for the same time right afterwards does not evaluate it once more.
+  std::function<SceneMoment(double time)> moment_at;
   Animation animation;
   bool depends_on_time = false;
   std::vector<Parameter> parameters;

@@ -26,6 +26,9 @@ struct SurfacePoint {
   Vector2f uv{0};
 };
 
+struct RayPacket;
+struct HitPacket;
+
 /// Pure geometry in world space: it knows no text, no material and no acceleration structure. Immutable.
 class Shape {
  public:
@@ -38,6 +41,10 @@ class Shape {
   /// returns true; returns false and leaves `hit` untouched where there is none. The hit does not depend on
   /// t_max beyond being nearer than it.
   virtual bool is_hit(const Ray3f& ray, Hit& hit) const = 0;
+
+  /// The very same for eight rays at once. What this class does, asking is_hit() for each, is right for every shape;
+  /// shapes that are asked often do it faster.
+  virtual void find_hits(const RayPacket& rays, HitPacket& hits) const;
 
   /// The full surface at a hit that is_hit() returned for this ray.
   virtual SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const = 0;

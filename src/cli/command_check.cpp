@@ -1,8 +1,5 @@
-#include <fmt/format.h>
-
-#include <cstdio>
-
 #include "cli/commands.hpp"
+#include "cli/output.hpp"
 #include "raytracer/error.hpp"
 
 namespace raytracer::cli {
@@ -14,9 +11,9 @@ LoadedScene load_and_report(const Options& options) {
   LoadedScene scene = load_scene_file(options.operands[0], options.load);
   for (const Diagnostic& diagnostic : scene.diagnostics) {
     if (options.json) {
-      fmt::print("{}\n", to_json(diagnostic));
+      say(to_json(diagnostic) + '\n');
     } else {
-      fmt::print(stderr, "{}\n", to_text(diagnostic));
+      warn(to_text(diagnostic) + '\n');
     }
   }
   return scene;

@@ -1,117 +1,124 @@
+// `raytracer render`: reads the scene, then makes one picture after the other.
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <filesystem>
-
 #include "cli/commands.hpp"
-#include "cli/interrupt.hpp"
+#include "cli/output.hpp"
 #include "cli/progress_bar.hpp"
-#include "image/write_file.hpp"
+#include "cli/statistics.hpp"
+#include "cli/target.hpp"
+#include "core/hash.hpp"
 #include "raytracer/error.hpp"
 #include "raytracer/image.hpp"
 
 namespace raytracer::cli {
 namespace {
 
-namespace fs = std::filesystem;
+// What a frame's file says about what it shows: two files with the same key have the same pixels.
+std::string key_of(const SceneHash& hash) {
+  Hasher hasher;
+  for (const std::uint64_t word : hash) hasher.add(word);
+  hasher.add(std::string_view(RAYTRACER_VERSION));
+  const auto [first, second] = hasher.value();
+  return fmt::format("{:016x}{:016x}", first, second);
+}
 
-struct PictureFormat {
-  std::string_view ending;
-  std::vector<std::uint8_t> (*encode)(const Image& image);
+// Makes pictures of a scene, each only where it isn't there yet.
+class Renderer {
+ public:
+  Renderer(const LoadedScene& scene, const Options& options, FrameSink& sink, ProgressBar& bar, RunStatistics& run,
+           Stopwatch& watch)
+      : scene_(scene), options_(options), sink_(sink), bar_(bar), run_(run), watch_(watch) {}
+
+  void make(const Shot& shot) {
+    if (shot.frame == 0) return make_still(shot);
+    try {
+      make_frame(shot);
+    } catch (const Error& error) {
+      const bool is_of_scene = error.kind() == ErrorKind::kScene || error.kind() == ErrorKind::kUsage;
+      if (!is_of_scene) throw;
+      throw Error(error.kind(), fmt::format("frame {} (t = {}): {}", shot.frame, shot.time, error.what()));
+    }
+  }
+
+ private:
+  void make_still(const Shot& shot) {
+    // What has been evaluated for the time 0 will do.
+    const RenderSettings settings = shot.time == 0 ? scene_.settings : scene_.moment_at(shot.time).settings;
+    sink_.add(0, {}, picture(shot, settings));
+  }
+
+  void make_frame(const Shot& shot) {
+    const SceneMoment moment = scene_.moment_at(shot.time);
+    const std::string key = key_of(moment.hash);
+    run_.build += watch_.lap();
+    if (options_.resume && sink_.has(shot.frame, key)) {
+      ++run_.kept;
+    } else if (key == latest_key_) {
+      sink_.repeat(shot.frame);
+    } else {
+      sink_.add(shot.frame, key, picture(shot, moment.settings));
+      latest_key_ = key;
+    }
+  }
+
+  Image picture(const Shot& shot, RenderSettings settings) {
+    settings.threads = options_.threads;
+    RenderStatistics statistics;
+    Image image = render(scene_.scene_at, shot.time, settings, &bar_, &statistics);
+    run_.rays += statistics.rays;
+    run_.build += statistics.build_seconds;
+    run_.render += watch_.lap() - statistics.build_seconds;
+    run_.width = image.width;
+    run_.height = image.height;
+    return image;
+  }
+
+  const LoadedScene& scene_;
+  const Options& options_;
+  FrameSink& sink_;
+  ProgressBar& bar_;
+  RunStatistics& run_;
+  Stopwatch& watch_;
+  std::string latest_key_;  // of the picture that the sink was given last
 };
-constexpr PictureFormat kFormats[] = {{".png", encode_png}, {".pfm", encode_pfm}};
 
-// The format that a file's name asks for; PNG where it has no ending.
-const PictureFormat& format_of(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  if (ending.empty()) return kFormats[0];
-  std::string known;
-  for (const PictureFormat& format : kFormats) {
-    if (format.ending == ending) return format;
-    known += fmt::format("{}{}", known.empty() ? "" : " and ", format.ending);
-  }
-  throw Error(ErrorKind::kUsage, fmt::format("'{}': pictures are written as {}", path, known));
-}
-
-std::string output_path(const Options& options) {
-  if (!options.output.empty()) return options.output;
-  const std::string& scene = options.operands.empty() ? std::string("-") : options.operands[0];
-  if (scene == "-") throw Error(ErrorKind::kUsage, "a scene from standard input has no name: say -o out.png");
-  return fs::path(scene).stem().string() + ".png";
-}
-
-// Everything that can be known to go wrong with the picture's place is told before a ray is shot.
-void check_output(const std::string& path, const std::vector<std::string>& files_read) {
-  if (path == "-") {
-    if (::isatty(STDOUT_FILENO) != 0) {
-      throw Error(ErrorKind::kUsage, "standard output is a terminal, and a picture is no text: say -o out.png");
-    }
-    return;
-  }
-  check_writable(path);
-  for (const std::string& read : files_read) {
-    std::error_code none;
-    if (fs::equivalent(path, read, none)) {
-      throw Error(ErrorKind::kFile, fmt::format("'{}' is a file that the scene reads: it is not overwritten", path));
-    }
-  }
-}
-
-double peak_memory_in_megabytes() {
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KiB
-}
-
-void print_summary(const std::string& path, const Image& image, double seconds, double render_seconds,
-                   const RenderStatistics& statistics) {
-  const double rays = static_cast<double>(statistics.rays);
-  fmt::print(stderr, "{}: {} x {} in {:.2f} s, {:.1f} million rays at {:.1f} million/s, {:.0f} MB\n", path,
-             image.width, image.height, seconds, rays / 1e6, rays / 1e6 / std::max(render_seconds, 1e-9),
-             peak_memory_in_megabytes());
+void write_statistics(const Options& options, const RunStatistics& run) {
+  if (options.statistics.empty()) return;
+  const std::string text = to_json(run);
+  write_file(options.statistics, {text.begin(), text.end()});
 }
 
 }  // namespace
 
 int run_render(const Options& options) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point then) {
-    return std::chrono::duration<double>(Clock::now() - then).count();
-  };
-  const Clock::time_point start = Clock::now();
-  const bool on_terminal = !options.quiet && ::isatty(STDERR_FILENO) != 0;
   if (options.operands.empty() && options.output.empty()) {
-    fmt::print(stderr, "{}", help_page());
+    warn(help_page());
     return static_cast<int>(ErrorKind::kUsage);
   }
-  const std::string path = output_path(options);
-  const PictureFormat& format = format_of(path);
-  LoadedScene scene = load_and_report(options);
+  const bool on_terminal = !options.quiet && ::isatty(STDERR_FILENO) != 0;
+  const Target target = target_of(options);
+  Stopwatch watch;
+  RunStatistics run;
+  const LoadedScene scene = load_and_report(options);
   if (!scene.ok()) return static_cast<int>(ErrorKind::kScene);
-  check_output(path, scene.files_read);
-  scene.settings.threads = options.threads;
-
-  RenderStatistics statistics;
-  Image image;
-  const Clock::time_point render_start = Clock::now();
+  const std::vector<Shot> shots = shots_of(target, options, scene);
+  if (!options.statistics.empty()) check_output(options.statistics, scene.files_read);
+  const std::unique_ptr<FrameSink> sink = open_target(target, shots, scene, run, watch);
+  run.shapes = scene.shapes;
+  run.load = watch.lap();
   {
-    const StopBetweenTiles orderly_stop;
-    ProgressBar bar(on_terminal);
-    image = render(scene.scene_at, 0, scene.settings, &bar, &statistics);
+    ProgressBar bar(on_terminal, shots.size());
+    Renderer renderer(scene, options, *sink, bar, run, watch);
+    for (const Shot& shot : shots) {
+      bar.begin_picture(shot.frame);
+      renderer.make(shot);
+      ++run.pictures;
+    }
   }
-  const double render_seconds = seconds_since(render_start);
-  const std::vector<std::uint8_t> bytes = format.encode(image);
-  if (path == "-") {
-    write_all(STDOUT_FILENO, bytes, "standard output");
-  } else {
-    write_file(path, bytes);
-  }
-  if (on_terminal) print_summary(path, image, seconds_since(start), render_seconds, statistics);
+  sink->finish();
+  if (on_terminal) warn(summary(target.path, run));
+  write_statistics(options, run);
   return 0;
 }
 

@@ -12,7 +12,6 @@ struct Example {
 constexpr Example kExamples[] = {
     {"raytracer scene.txt", "makes scene.png"},
     {"raytracer scene.txt -o big.png --size 1920x1080", "another name and size"},
-    {"raytracer check scene.txt", "only looks for mistakes"},
     {"raytracer help sphere", "what a sphere can have"},
 };
 
@@ -32,6 +31,14 @@ std::string option_title(const OptionRow& row) {
                      row.value.empty() ? "" : " ", row.value);
 }
 
+// What the option is for; one of a single command other than render says so.
+std::string option_help(const OptionRow& row) {
+  for (const CommandRow& command : all_commands()) {
+    if (row.commands == command.bit && command.bit != kRender) return fmt::format("{}: {}", command.name, row.help);
+  }
+  return std::string(row.help);
+}
+
 std::string escape_roff(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -46,12 +53,13 @@ std::string escape_roff(std::string_view text) {
 std::string help_page() {
   std::string page = "raytracer turns a text file into a picture.\n\n";
   for (const CommandRow& row : all_commands()) {
-    page += fmt::format("  raytracer {:<22} {}\n",
-                        fmt::format("{} {}", row.bit == kRender ? "[render]" : row.name, row.operands), row.help);
+    page +=
+        fmt::format("  raytracer {:<15} {}\n",
+                    fmt::format("{} {}", row.bit == kRender ? "[render]" : row.name, row.operands), row.help);
   }
   page += '\n';
   for (const OptionRow& row : all_options()) {
-    if (!row.hidden) page += fmt::format("  {:<24} {}\n", option_title(row), row.help);
+    if (!row.hidden) page += fmt::format("  {:<21} {}\n", option_title(row), option_help(row));
   }
   page += '\n';
   for (const Example& example : kExamples) page += fmt::format("  {:<48}  {}\n", example.line, example.help);
@@ -74,7 +82,7 @@ std::string man_page() {
     if (row.hidden) continue;
     page += fmt::format(".TP\n\\fB{}{}{}\\fR{}\n{}\n", escape_roff(row.alias), row.alias.empty() ? "" : ", ",
                         escape_roff(row.name), row.value.empty() ? "" : fmt::format(" \\fI{}\\fR", row.value),
-                        escape_roff(row.help));
+                        escape_roff(option_help(row)));
   }
   page += ".SH EXIT STATUS\n";
   for (const ExitCode& row : kExitCodes) page += fmt::format(".TP\n.B {}\n{}\n", row.code, row.meaning);

@@ -3,21 +3,15 @@
 
 namespace raytracer::cli {
 
-/// From here on SIGINT and SIGTERM end the program with exit code 128 + signal, at once and with no file half written, or
-/// as soon as a StopBetweenTiles lets go. A full disk or a closed pipe is an error of the write, not a signal.
+/// From here on SIGINT, SIGTERM and SIGHUP end the program at once with exit code 128 + signal, with no file
+/// half written and a clean line on the terminal. A full disk or a closed pipe is an error of the write, not
+/// a signal.
 void install_signal_handlers();
 
-/// The signal that asked to stop, or 0.
-int pending_signal();
+/// Moves to the start of the terminal's line and empties it.
+inline constexpr char kClearLine[] = "\r\x1b[K";
 
-/// While one lives, the first signal only sets pending_signal(), and the program ends itself in good order; a second one
-/// ends it at once.
-class StopBetweenTiles {
- public:
-  StopBetweenTiles();
-  ~StopBetweenTiles();
-  StopBetweenTiles(const StopBetweenTiles&) = delete;
-  StopBetweenTiles& operator=(const StopBetweenTiles&) = delete;
-};
+/// Whether a progress bar stands on the terminal's line, which a signal then has to clear.
+void set_line_in_use(bool in_use);
 
 }  // namespace raytracer::cli

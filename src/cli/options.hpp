@@ -1,13 +1,15 @@
-// The command line: one row per command and per option. Parsing, --help, the man page and the shells' completions all
-// read these rows.
+// The command line: one row per command and per option. Parsing, --help, the man page and the shells'
+// completions all read these rows.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "cli/frames.hpp"
 #include "raytracer/scene_file.hpp"
 
 namespace raytracer::cli {
@@ -16,16 +18,21 @@ namespace raytracer::cli {
 struct Options {
   std::vector<std::string> operands;  ///< what is no option: the scene, or a topic of help
   std::string output;                 ///< empty: from the scene's name
+  std::string statistics;             ///< where what the run took is written to; empty: nowhere
+  std::optional<FrameList> frames;    ///< as --frames has them
+  std::optional<double> time_at;      ///< seconds: one moment
+  bool resume = false;                ///< keep the frames that are there
   LoadOptions load;
   int threads = 0;
   bool quiet = false;
   bool json = false;
+  bool checks_form = false, in_place = false;  ///< of fmt
   bool wants_help = false, wants_version = false;
-  bool wants_man_page = false;
+  bool wants_man_page = false, wants_markdown = false;
   std::string completions_for;  ///< a shell
 };
 
-enum CommandBit : std::uint8_t { kRender = 1, kCheck = 2, kHelp = 4 };
+enum CommandBit : std::uint8_t { kRender = 1, kCheck = 2, kHelp = 4, kParams = 8, kFmt = 16 };
 
 struct CommandRow {
   std::string_view name;
@@ -33,6 +40,7 @@ struct CommandRow {
   std::string_view operands;  ///< as usage shows them
   std::string_view help;
   int (*run)(const Options& options);  ///< returns the exit code
+  std::size_t most_operands = 1;
 };
 
 struct OptionRow {
@@ -43,6 +51,7 @@ struct OptionRow {
   bool hidden;             ///< for packagers: not in --help
   std::string_view help;
   void (*apply)(Options& options, const std::string& value);  ///< throws Error (kUsage)
+  bool repeatable = false;
 };
 
 std::span<const CommandRow> all_commands();

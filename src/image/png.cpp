@@ -1,18 +1,14 @@
-// Pictures as PNG. The only door to libpng, which writes the file's structure; rows are filtered and
-// compressed here, on all threads.
+// Pictures as PNG. The only door to libpng, which writes the file's structure.
 #include <png.h>
 
-#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 #include <new>
 #include <string>
 #include <utility>
 
-#include "core/parallel.hpp"
 #include "image/encode.hpp"
-#include "image/png_rows.hpp"
-#include "image/zlib_pieces.hpp"
+#include "image/png_pixels.hpp"
 #include "raytracer/error.hpp"
 #include "raytracer/image.hpp"
 
@@ -23,6 +19,7 @@ namespace {
 struct PngJob {
   png_uint_32 width = 0, height = 0;
   const std::vector<ZlibPiece>& pieces;
+  std::vector<png_text> texts = {};
   std::vector<std::uint8_t> file = {};
   char problem[128] = "";
 };
@@ -74,25 +71,13 @@ class PngWriter {
   png_infop info_;
 };
 
-void set_texts(png_structp png, png_infop info) {
-  static char keys[2][9] = {"Software", "Version"};
-  static char values[2][sizeof("raytracer") + sizeof(RAYTRACER_VERSION)] = {"raytracer", RAYTRACER_VERSION};
-  png_text texts[2] = {};
-  for (int i = 0; i < 2; ++i) {
-    texts[i].compression = PNG_TEXT_COMPRESSION_NONE;
-    texts[i].key = keys[i];
-    texts[i].text = values[i];
-  }
-  png_set_text(png, info, texts, 2);
-}
-
 /// False when libpng refused; then job.problem says why.
 bool write_chunks(png_structp png, png_infop info, const PngJob& job) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   png_set_IHDR(png, info, job.width, job.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
-  set_texts(png, info);
+  png_set_text(png, info, job.texts.data(), static_cast<int>(job.texts.size()));
   png_write_info(png, info);
   static constexpr png_byte kPixels[] = "IDAT", kEnd[] = "IEND";
   for (std::size_t i = 0; i < job.pieces.size(); ++i) {
@@ -102,34 +87,20 @@ bool write_chunks(png_structp png, png_infop info, const PngJob& job) {
   return true;
 }
 
-PiecePlace place_of(std::size_t i, std::size_t count) {
-  if (count == 1) return PiecePlace::kOnly;
-  if (i == 0) return PiecePlace::kFirst;
-  return i + 1 == count ? PiecePlace::kLast : PiecePlace::kMiddle;
+// libpng reads the text, and takes it by a pointer that could write.
+png_text as_png_text(std::string& key, std::string& value) {
+  png_text text = {};
+  text.compression = PNG_TEXT_COMPRESSION_NONE;
+  text.key = key.data();
+  text.text = value.data();
+  return text;
 }
 
-/// The rows cut into stripes, the same for any number of threads, and compressed side by side.
-std::vector<ZlibPiece> compress_rows(const Image& image) {
-  constexpr int kStripeBytes = 1 << 16, kMaxWidth = 1 << 28;
-  if (image.width > kMaxWidth) {
-    throw Error(ErrorKind::kFile,
-                "a PNG wider than " + std::to_string(kMaxWidth) + " pixels can't be written");
-  }
-  const int stripe_rows = std::max(1, kStripeBytes / (3 * image.width + 1));
-  const auto count = static_cast<std::size_t>((image.height - 1) / stripe_rows + 1);
-  std::vector<ZlibPiece> pieces(count);
-  parallel_for(count, [&](std::size_t i) {
-    const int first = static_cast<int>(i) * stripe_rows;
-    const int end = std::min(image.height - first, stripe_rows) + first;
-    pieces[i] = compress_piece(filtered_rows(image, first, end), place_of(i, count));
-  });
-  append_checksum(pieces);
-  return pieces;
-}
-
-std::vector<std::uint8_t> png_of(const Image& image) {
-  const std::vector<ZlibPiece> pieces = compress_rows(image);
+std::vector<std::uint8_t> png_of(const Image& image, std::vector<PngText> texts) {
+  const std::vector<ZlibPiece> pieces = compress_pixels(image);
   PngJob job{static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), pieces};
+  texts.insert(texts.begin(), {{"Software", "raytracer"}, {"Version", RAYTRACER_VERSION}});
+  for (PngText& text : texts) job.texts.push_back(as_png_text(text.keyword, text.text));
   const PngWriter writer(job);
   if (!write_chunks(writer.png(), writer.info(), job)) {
     throw Error(ErrorKind::kFile, std::string("can't make a PNG: ") + job.problem);
@@ -139,8 +110,8 @@ std::vector<std::uint8_t> png_of(const Image& image) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Image& image) {
-  return encode_checked(image, [&] { return png_of(image); });
+std::vector<std::uint8_t> encode_png(const Image& image, const std::vector<PngText>& texts) {
+  return encode_checked(image, [&] { return png_of(image, texts); });
 }
 
 }  // namespace raytracer

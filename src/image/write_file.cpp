@@ -103,17 +103,21 @@ int write_bytes(int descriptor, const std::vector<std::uint8_t>& bytes) {
   return 0;
 }
 
+/// Gives a new file the owner and the permissions of the one it replaces. 0 or the error's number.
+int keep_permissions(int file, const Destination& place) {
+  if (place.kind != Destination::Kind::kFile) return 0;
+  struct stat status = {};
+  fstat(file, &status);
+  const bool is_other_owner = status.st_uid != place.owner || status.st_gid != place.group;
+  // Only root may give files away; another's new picture is its own. So the result doesn't matter.
+  if (is_other_owner) [[maybe_unused]]
+    const int result = fchown(file, place.owner, place.group);
+  return fchmod(file, place.permissions) == 0 ? 0 : errno;
+}
+
 /// Gives the new file its contents and the old one's permissions, on the disk. 0 or the error's number.
 int fill(int file, const Destination& place, const std::vector<std::uint8_t>& bytes) {
-  if (place.kind == Destination::Kind::kFile) {
-    struct stat status = {};
-    fstat(file, &status);
-    const bool is_other_owner = status.st_uid != place.owner || status.st_gid != place.group;
-    // Only root may give files away; another's new picture is its own. So the result doesn't matter.
-    if (is_other_owner) [[maybe_unused]]
-      const int result = fchown(file, place.owner, place.group);
-    if (fchmod(file, place.permissions) != 0) return errno;
-  }
+  if (const int error = keep_permissions(file, place)) return error;
   if (const int error = write_bytes(file, bytes)) return error;
   return fsync(file) == 0 ? 0 : errno;
 }
@@ -197,5 +201,41 @@ void write_file(const std::string& path, const std::vector<std::uint8_t>& bytes)
   write_all(device.get(), bytes, path);
   if (const int error = device.close_and_check()) fail(path, error);
 }
+
+class FileInProgress::Place {
+ public:
+  explicit Place(const std::string& asked)
+      : asked_(asked), place_(find_destination(asked)), folder_(open_folder(place_.folder)), name_(folder_.get()) {
+    if (place_.kind != Destination::Kind::kNew && place_.kind != Destination::Kind::kFile) {
+      throw Error(ErrorKind::kFile, fmt::format("can't write '{}': it is no regular file", asked));
+    }
+    if (folder_.get() < 0) fail(asked, errno);
+    const Descriptor file(name_.create([&](const char* candidate) {
+      return openat(folder_.get(), candidate, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kNewFile);
+    }));
+    if (file.get() < 0) fail(asked, errno);
+  }
+  std::string path() const { return place_.folder + "/" + unfinished_name; }
+
+  void finish() {
+    const Descriptor file(openat(folder_.get(), unfinished_name, O_WRONLY | O_CLOEXEC));
+    if (file.get() < 0) fail(asked_, errno);
+    if (const int error = keep_permissions(file.get(), place_)) fail(asked_, error);
+    if (fsync(file.get()) != 0) fail(asked_, errno);
+    if (const int error = name_.move_to(place_.name)) fail(asked_, error);
+    fsync(folder_.get());
+  }
+
+ private:
+  std::string asked_;
+  Destination place_;
+  Descriptor folder_;
+  TemporaryName name_;
+};
+
+FileInProgress::FileInProgress(const std::string& path) : place_(std::make_unique<Place>(path)) {}
+FileInProgress::~FileInProgress() = default;
+std::string FileInProgress::path() const { return place_->path(); }
+void FileInProgress::finish() { place_->finish(); }
 
 }  // namespace raytracer

@@ -65,4 +65,8 @@ void append_checksum(std::vector<ZlibPiece>& pieces) {
     pieces.back().bytes.push_back(static_cast<std::uint8_t>(sum >> shift));
 }
 
+std::uint32_t crc32_of(const std::uint8_t* bytes, std::size_t count) {
+  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), bytes, count));
+}
+
 }  // namespace raytracer

@@ -23,4 +23,7 @@ ZlibPiece compress_piece(const std::vector<std::uint8_t>& raw, PiecePlace place)
 /// Ends the last piece with the checksum of all.
 void append_checksum(std::vector<ZlibPiece>& pieces);
 
+/// The CRC-32 of PNG's chunks.
+std::uint32_t crc32_of(const std::uint8_t* bytes, std::size_t count);
+
 }  // namespace raytracer

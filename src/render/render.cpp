@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 
 #include "core/parallel.hpp"
@@ -28,6 +29,20 @@ std::vector<Tile> cut_into_tiles(int width, int height) {
   return tiles;
 }
 
+// The pixels of a tile in blocks of as many as a packet takes: rays that go the same way.
+std::vector<glm::ivec2> pixels_in_blocks(const Tile& tile) {
+  constexpr int kBlock = 4;
+  std::vector<glm::ivec2> pixels;
+  for (int y = tile.y_begin; y < tile.y_end; y += kBlock) {
+    for (int x = tile.x_begin; x < tile.x_end; x += kBlock) {
+      for (int v = y; v < std::min(y + kBlock, tile.y_end); ++v) {
+        for (int u = x; u < std::min(x + kBlock, tile.x_end); ++u) pixels.push_back({u, v});
+      }
+    }
+  }
+  return pixels;
+}
+
 class TileRenderer {
  public:
   TileRenderer(const Scene& scene, const RenderSettings& settings, Image& image)
@@ -35,30 +50,34 @@ class TileRenderer {
 
   /// Writes the tile's pixels; returns how many rays that took.
   std::uint64_t render(const Tile& tile) const {
-    std::uint64_t rays = 0;
-    for (int y = tile.y_begin; y < tile.y_end; ++y) {
-      for (int x = tile.x_begin; x < tile.x_end; ++x) image_.set(x, y, pixel(x, y, rays));
+    const std::vector<glm::ivec2> pixels = pixels_in_blocks(tile);
+    std::vector<Color3f> sums(pixels.size(), Color3f(0)), colors(pixels.size());
+    std::vector<Ray3f> rays(pixels.size());
+    PixelColors tracer(scene_);
+    for (int sample = 0; sample < settings_.samples; ++sample) {
+      for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = camera_ray(pixels[i].x, pixels[i].y, sample);
+      tracer.trace(rays, settings_.bounces, colors);
+      for (std::size_t i = 0; i < pixels.size(); ++i) sums[i] += colors[i];
     }
-    return rays;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      image_.set(pixels[i].x, pixels[i].y, sums[i] / static_cast<float>(settings_.samples));
+    }
+    return tracer.rays();
   }
 
  private:
-  Color3f pixel(int x, int y, std::uint64_t& rays) const {
-    if (settings_.samples == 1) return sample(x, y, Vector2f(0.5f), rays);
-    const auto number = static_cast<std::uint32_t>(image_.index(x, y));
-    const std::uint32_t seed = hash_bits(number ^ hash_bits(settings_.seed));
-    Color3f sum(0);
-    for (int i = 0; i < settings_.samples; ++i) {
-      sum += sample(x, y, sobol_point(static_cast<std::uint32_t>(i), seed), rays);
-    }
-    return sum / static_cast<float>(settings_.samples);
-  }
-
-  // `within`: where in the pixel, (0, 0) its upper left corner.
-  Color3f sample(int x, int y, const Vector2f& within, std::uint64_t& rays) const {
+  Ray3f camera_ray(int x, int y, int sample) const {
+    const Vector2f within = place_in_pixel(x, y, sample);
     const double across = (x + static_cast<double>(within.x)) / image_.width;
     const double down = (y + static_cast<double>(within.y)) / image_.height;
-    return get_pixel_color(scene_, scene_.camera().ray_through(across, down), settings_.bounces, rays);
+    return scene_.camera().ray_through(across, down);
+  }
+
+  // (0, 0) is the pixel's upper left corner.
+  Vector2f place_in_pixel(int x, int y, int sample) const {
+    if (settings_.samples == 1) return Vector2f(0.5f);
+    const auto number = static_cast<std::uint32_t>(image_.index(x, y));
+    return sobol_point(static_cast<std::uint32_t>(sample), hash_bits(number ^ hash_bits(settings_.seed)));
   }
 
   const Scene& scene_;
@@ -93,8 +112,11 @@ Image render(const SceneAt& scene_at, double time, const RenderSettings& setting
   std::atomic<std::uint64_t> rays = 0;
   const std::vector<Tile> tiles = cut_into_tiles(settings.width, settings.height);
   Progress progress(observer, tiles.size());
+  double build_seconds = 0;
   run_with_threads(settings.threads, [&] {
+    const auto start = std::chrono::steady_clock::now();
     const std::shared_ptr<const Scene> scene = scene_at(time);
+    build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const TileRenderer renderer(*scene, settings, image);
     parallel_for(tiles.size(), [&](std::size_t i) {
       if (progress.is_stopped()) return;
@@ -103,7 +125,10 @@ Image render(const SceneAt& scene_at, double time, const RenderSettings& setting
     });
   });
   if (progress.is_stopped()) throw Error(ErrorKind::kInterrupted, "interrupted");
-  if (statistics != nullptr) statistics->rays += rays;
+  if (statistics != nullptr) {
+    statistics->rays += rays;
+    statistics->build_seconds += build_seconds;
+  }
   return image;
 }
 

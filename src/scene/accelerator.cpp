@@ -1,5 +1,5 @@
-// The only file that knows Embree. Finite shapes are the primitives of one user geometry whose callbacks ask
-// Shape::is_hit; endless shapes stay outside of the tree, which silently never visits infinite bounds.
+// Where Embree is asked. Finite shapes are the primitives of one user geometry; endless shapes stay outside of the
+// tree, which silently never visits infinite bounds.
 #include "scene/accelerator.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raytracer/error.hpp"
+#include "scene/callbacks.hpp"
 #include "scene/embree.hpp"
 #include "scene/shape_list.hpp"
 
@@ -17,69 +18,49 @@ namespace {
 
 constexpr unsigned kAllGeometry = 0xFFFFFFFF;  // Embree 4's default mask would be 1
 
-// The finite shapes, as the callbacks find them: primitive i is shape indices[i] of the scene, ascending.
-struct FiniteShapes {
-  std::vector<const Shape*> shapes;
-  std::vector<std::uint32_t> indices;
-};
-
 // Embree (its rays' valid()) takes no coordinate beyond 1.844e18. Shapes end at 1e18; only a plane is met farther out,
 // and nothing in the tree can be seen from there in single precision.
+constexpr float kFarthest = 1.8e18f;
+
 bool is_within_reach(const Ray3f& ray) {
-  constexpr float kFarthest = 1.8e18f;
   const Vector3f largest = glm::max(glm::abs(ray.origin), glm::abs(ray.direction));
   return largest.x < kFarthest && largest.y < kFarthest && largest.z < kFarthest;
 }
 
-Ray3f to_ray(const RTCRay& ray) {
-  return {{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, ray.tnear, ray.tfar};
-}
-
+// Written out whole, for Embree reads four floats at once and would have to wait for eight single stores.
 RTCRay to_embree(const Ray3f& ray) {
-  RTCRay result{};
-  result.org_x = ray.origin.x;
-  result.org_y = ray.origin.y;
-  result.org_z = ray.origin.z;
-  result.tnear = ray.t_min;
-  result.dir_x = ray.direction.x;
-  result.dir_y = ray.direction.y;
-  result.dir_z = ray.direction.z;
-  result.tfar = ray.t_max;
-  result.mask = kAllGeometry;
-  return result;
+  return {ray.origin.x,    ray.origin.y,    ray.origin.z,    ray.t_min, ray.direction.x,
+          ray.direction.y, ray.direction.z, 0,               ray.t_max, kAllGeometry,
+          0,               0};
 }
 
-void bounds_callback(const RTCBoundsFunctionArguments* args) {
-  const auto& finite = *static_cast<const FiniteShapes*>(args->geometryUserPtr);
-  const Box3f box = finite.shapes[args->primID]->bounds();
-  *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
+void set_lane(RTCRay16& rays, std::size_t i, const Ray3f& ray) {
+  rays.org_x[i] = ray.origin.x;
+  rays.org_y[i] = ray.origin.y;
+  rays.org_z[i] = ray.origin.z;
+  rays.tnear[i] = ray.t_min;
+  rays.dir_x[i] = ray.direction.x;
+  rays.dir_y[i] = ray.direction.y;
+  rays.dir_z[i] = ray.direction.z;
+  rays.time[i] = 0;
+  rays.tfar[i] = ray.t_max;
+  rays.mask[i] = kAllGeometry;
+  rays.id[i] = rays.flags[i] = 0;
 }
 
-void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  const auto& finite = *static_cast<const FiniteShapes*>(args->geometryUserPtr);
-  auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  // A hit just as far as the nearest one so far still counts if its shape comes first.
-  const bool has_hit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-  Ray3f ray = to_ray(query.ray);
-  if (has_hit && args->primID < query.hit.primID) ray.t_max = std::nextafter(ray.t_max, kInfinity);
-  Hit hit;
-  if (!finite.shapes[args->primID]->is_hit(ray, hit)) return;
-  query.ray.tfar = hit.t;
-  query.hit.geomID = args->geomID;
-  query.hit.primID = args->primID;
-  query.hit.u = hit.u;
-  query.hit.v = hit.v;
-  query.hit.Ng_x = std::bit_cast<float>(hit.primitive);  // the normal's place is free: surface_at() knows better
-}
-
-void occluded_callback(const RTCOccludedFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  const auto& finite = *static_cast<const FiniteShapes*>(args->geometryUserPtr);
-  auto& query = *reinterpret_cast<RTCRay*>(args->ray);
-  Hit ignored;
-  if (finite.shapes[args->primID]->is_hit(to_ray(query), ignored)) query.tfar = -kInfinity;
-}
+// The lanes of a packet that Embree shall follow, as it wants them marked: those of the first `count` that are within
+// reach, as above.
+struct alignas(64) ValidLanes {
+  int lane[kMostRays];
+  ValidLanes(const RTCRay16& rays, std::size_t count) {
+    const auto is_near = [](float x) { return (x < kFarthest) & (x > -kFarthest); };
+    for (std::size_t i = 0; i < kMostRays; ++i) {
+      const bool is_valid = (i < count) & is_near(rays.org_x[i]) & is_near(rays.org_y[i]) & is_near(rays.org_z[i]) &
+                            is_near(rays.dir_x[i]) & is_near(rays.dir_y[i]) & is_near(rays.dir_z[i]);
+      lane[i] = is_valid ? -1 : 0;
+    }
+  }
+};
 
 // One for the whole program: it holds the choice of instruction set, not scenes.
 RTCDevice device() {
@@ -90,11 +71,7 @@ RTCDevice device() {
 
 RTCScene build_tree(FiniteShapes& finite) {
   RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(finite.shapes.size()));
-  rtcSetGeometryUserData(geometry, &finite);
-  rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect_callback);
-  rtcSetGeometryOccludedFunction(geometry, occluded_callback);
+  set_callbacks(geometry, finite);
   rtcCommitGeometry(geometry);
   RTCScene scene = rtcNewScene(device());
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -118,6 +95,21 @@ struct Accelerator::Tree {
   ~Tree() {
     if (scene != nullptr) rtcReleaseScene(scene);
   }
+
+  // Asks the endless shapes. So near a tie that only the order of the shapes can settle it both are looked at: the ray
+  // for the tree ends just behind the hit.
+  bool is_endless_hit(Ray3f& ray, Hit& hit) const {
+    if (endless.is_empty() || !endless.is_hit(ray, hit)) return false;
+    ray.t_max = std::nextafter(hit.t, kInfinity);
+    return true;
+  }
+
+  // The nearer of what the tree found and of `hit`, which the endless shapes have found if `has_hit`.
+  bool choose(float t, unsigned primitive, float part, float u, float v, bool has_hit, Hit& hit) const {
+    const std::uint32_t shape = finite.indices[primitive];
+    if (!has_hit || t < hit.t || shape < hit.shape) hit = {t, shape, std::bit_cast<std::uint32_t>(part), u, v};
+    return true;
+  }
 };
 
 Accelerator::Accelerator(std::span<const std::unique_ptr<Shape>> shapes) : tree_(std::make_unique<Tree>()) {
@@ -135,25 +127,16 @@ Accelerator::Accelerator(std::span<const std::unique_ptr<Shape>> shapes) : tree_
 Accelerator::~Accelerator() = default;
 
 bool Accelerator::is_hit(const Ray3f& ray, Hit& hit) const {
-  Hit endless_hit;
-  const bool hits_endless = !tree_->endless.is_empty() && tree_->endless.is_hit(ray, endless_hit);
-  if (tree_->scene != nullptr && is_within_reach(ray)) {
-    RTCRayHit query{};
-    query.ray = to_embree(ray);
-    // So near a tie that only the order of the shapes can settle it: both are looked at.
-    if (hits_endless) query.ray.tfar = std::nextafter(endless_hit.t, kInfinity);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(tree_->scene, query);
-    if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
-      const std::uint32_t shape = tree_->finite.indices[query.hit.primID];
-      if (!hits_endless || query.ray.tfar < endless_hit.t || shape < endless_hit.shape) {
-        hit = {query.ray.tfar, shape, std::bit_cast<std::uint32_t>(query.hit.Ng_x), query.hit.u, query.hit.v};
-        return true;
-      }
-    }
-  }
-  if (hits_endless) hit = endless_hit;
-  return hits_endless;
+  Ray3f rest = ray;
+  const bool hits_endless = tree_->is_endless_hit(rest, hit);
+  if (tree_->scene == nullptr || !is_within_reach(ray)) return hits_endless;
+  RTCRayHit query;
+  query.ray = to_embree(rest);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  embree::intersect(tree_->scene, query);
+  const RTCHit& found = query.hit;
+  if (found.geomID == RTC_INVALID_GEOMETRY_ID) return hits_endless;
+  return tree_->choose(query.ray.tfar, found.primID, found.Ng_x, found.u, found.v, hits_endless, hit);
 }
 
 bool Accelerator::is_occluded(const Ray3f& ray) const {
@@ -163,6 +146,42 @@ bool Accelerator::is_occluded(const Ray3f& ray) const {
     if (query.tfar < 0) return true;
   }
   return !tree_->endless.is_empty() && tree_->endless.is_occluded(ray);
+}
+
+std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Coherence coherence) const {
+  RTCRayHit16 query{};
+  std::uint32_t answer = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Ray3f rest = rays[i];
+    answer |= std::uint32_t{tree_->is_endless_hit(rest, hits[i])} << i;
+    set_lane(query.ray, i, rest);
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  if (tree_->scene == nullptr) return answer;
+  embree::intersect(ValidLanes(query.ray, rays.size()).lane, tree_->scene, query, coherence);
+  const RTCHit16& found = query.hit;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const bool hits_endless = (answer >> i & 1U) != 0;
+    tree_->choose(query.ray.tfar[i], found.primID[i], found.Ng_x[i], found.u[i], found.v[i], hits_endless, hits[i]);
+    answer |= 1U << i;
+  }
+  return answer;
+}
+
+std::uint32_t Accelerator::is_occluded(std::span<const Ray3f> rays, Coherence coherence) const {
+  std::uint32_t answer = 0;
+  if (tree_->scene != nullptr) {
+    RTCRay16 query;
+    for (std::size_t i = 0; i < rays.size(); ++i) set_lane(query, i, rays[i]);
+    embree::occluded(ValidLanes(query, rays.size()).lane, tree_->scene, query, coherence);
+    for (std::size_t i = 0; i < rays.size(); ++i) answer |= std::uint32_t{query.tfar[i] < 0} << i;
+  }
+  if (tree_->endless.is_empty()) return answer;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if ((answer >> i & 1U) == 0) answer |= std::uint32_t{tree_->endless.is_occluded(rays[i])} << i;
+  }
+  return answer;
 }
 
 }  // namespace raytracer

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "raytracer/shape.hpp"
+#include "raytracer/scene.hpp"
 
 namespace raytracer {
 
@@ -19,6 +19,10 @@ class Accelerator {
   /// The nearest hit; among equal t that of the lower shape.
   bool is_hit(const Ray3f& ray, Hit& hit) const;
   bool is_occluded(const Ray3f& ray) const;
+
+  /// The very same for up to kMostRays rays at once; bit i of the result is the answer for ray i.
+  std::uint32_t is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Coherence coherence) const;
+  std::uint32_t is_occluded(std::span<const Ray3f> rays, Coherence coherence) const;
 
  private:
   struct Tree;

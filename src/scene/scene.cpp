@@ -24,12 +24,12 @@ bool Scene::is_hit(const Ray3f& ray, Hit& hit) const { return accelerator_->is_h
 
 bool Scene::is_occluded(const Ray3f& ray) const { return accelerator_->is_occluded(ray); }
 
-SurfacePoint Scene::surface_at(const Ray3f& ray, const Hit& hit) const {
-  return description_.shapes[hit.shape]->surface_at(ray, hit);
+std::uint32_t Scene::is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Coherence coherence) const {
+  return accelerator_->is_hit(rays, hits, coherence);
 }
 
-const Material& Scene::material_of(const Hit& hit) const {
-  return description_.materials[description_.material_of[hit.shape]];
+std::uint32_t Scene::is_occluded(std::span<const Ray3f> rays, Coherence coherence) const {
+  return accelerator_->is_occluded(rays, coherence);
 }
 
 Color3f Scene::get_pixel_color(const Ray3f& ray, int bounces_left) const {

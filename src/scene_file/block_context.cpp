@@ -128,6 +128,7 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
                                       builder_.diagnostics_);
   if (!argument) return false;
   depends_on_time_ = depends_on_time_ || argument->depends_on_time;
+  if (builder_.hasher_ != nullptr) builder_.hasher_->add(*row, *argument);
   if (row->type == PropertyType::kMaterial) {
     material_ = builder_.find_material(argument->text, place(property.values.front().span), around_);
     return material_.has_value();
@@ -269,9 +270,14 @@ bool BlockContext::check_required() {
 bool fill(BlockContext& context, void* input) {
   Evaluator& evaluator = context.builder_.evaluator_;
   context.let_base_ = evaluator.bindings().height();
+  SceneHasher* hasher = context.builder_.hasher_;
+  if (hasher != nullptr) {
+    hasher->begin_block(context.row_, context.name_, context.around_.to_world, context.around_.material);
+  }
   bool sound = context.fill_items(input);
   sound = context.check_required() && sound;
   evaluator.bindings().pop_to(context.let_base_);
+  if (hasher != nullptr) hasher->end_block(context.material_);
   if (!sound && context.row_.has_children) context.build_children();  // for the mistakes in them
   return sound;
 }

@@ -15,6 +15,7 @@
 #include "scene_file/evaluator.hpp"
 #include "scene_file/files.hpp"
 #include "scene_file/limits.hpp"
+#include "scene_file/scene_hash.hpp"
 #include "scene_file/schema.hpp"
 #include "scene_file/syntax.hpp"
 
@@ -148,6 +149,9 @@ class Builder {
   /// A string keeps the text as it was given, whatever else it could be read as.
   void replace_let(NameId name, const Value& value, std::string_view text) { replaced_lets_[name] = {value, text}; }
 
+  /// The hasher is told what the scene says; it outlives build().
+  void hash_into(SceneHasher& hasher) { hasher_ = &hasher; }
+
   /// Evaluates a whole scene.
   void build(const SyntaxTree& tree);
 
@@ -214,9 +218,11 @@ class Builder {
   Bindings<std::shared_ptr<const Definition>> definitions_;
   Bindings<std::uint32_t> materials_;
   SceneDraft draft_;
+  SceneHasher* hasher_ = nullptr;
   std::vector<MaterialUse> material_uses_;
   std::unordered_map<NameId, Replacement> replaced_lets_;
   std::vector<TopLevelLet> top_level_lets_;
+  std::unordered_map<const SyntaxTree*, int> bad_includes_;
   std::size_t include_depth_ = 0, use_depth_ = 0;
   std::uint64_t shapes_made_ = 0;
   bool halted_ = false;

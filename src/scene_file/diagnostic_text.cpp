@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/printable.hpp"
 #include "raytracer/scene_file.hpp"
 
 namespace raytracer {
@@ -12,24 +13,17 @@ namespace {
 
 constexpr std::size_t kWidestLine = 110;  // characters of a source line that a message shows
 
-// Splits UTF-8 into its characters; what is no UTF-8 or would steer a terminal becomes a replacement character.
-std::vector<std::string> printable_characters(const std::string& line) {
-  static const std::string kReplacement = "\xEF\xBF\xBD";
-  std::vector<std::string> characters;
-  for (std::size_t i = 0; i < line.size();) {
-    const auto lead = static_cast<unsigned char>(line[i]);
-    std::size_t length = lead < 0x80 ? 1 : lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC0 ? 2 : 0;
-    bool valid = length > 0 && lead < 0xF8 && i + length <= line.size();
-    for (std::size_t k = 1; valid && k < length; ++k) {
-      valid = (static_cast<unsigned char>(line[i + k]) & 0xC0U) == 0x80U;
-    }
-    if (!valid) length = 1;
-    const bool steers = (lead < 0x20 && lead != '\t') || lead == 0x7F || (lead == 0xC2 && valid &&
-                        static_cast<unsigned char>(line[i + 1]) < 0xA0);
-    characters.push_back(valid && !steers ? line.substr(i, length) : kReplacement);
-    i += length;
-  }
-  return characters;
+// A word of a scene may be as long as the scene; a message about it is not.
+std::string message_text(const std::string& text) {
+  constexpr std::size_t kLongestMessage = 400;
+  return shortened(text, kLongestMessage);
+}
+
+// The same for a terminal: on one line, and nothing in it that steers.
+std::string one_line(const std::string& text) {
+  std::string out;
+  for (const std::string& character : printable_characters(message_text(text))) out += character;
+  return out;
 }
 
 // The part of a long line that holds the underlined columns.
@@ -46,31 +40,34 @@ Window window_around(std::size_t column, std::size_t length) {
 
 void append_snippet(std::string& out, const Diagnostic& d, std::size_t gutter) {
   const std::vector<std::string> characters = printable_characters(d.source_line);
-  const std::size_t column = std::min<std::size_t>(d.column - 1, characters.size());
+  // The first character of source_line need not be the line's first.
+  const std::size_t column = std::min<std::size_t>(d.column - d.source_column, characters.size());
   const Window window = window_around(column, characters.size());
   out += fmt::format("{:>{}} |\n{:>{}} | ", "", gutter, d.line, gutter);
-  if (window.first > 0) out += "…";
+  const bool is_cut = window.first > 0 || d.source_column > 1;
+  if (is_cut) out += "…";
   for (std::size_t i = window.first; i < window.last; ++i) out += characters[i];
   if (window.last < characters.size()) out += "…";
   out += fmt::format("\n{:>{}} | ", "", gutter);
-  if (window.first > 0) out += ' ';
+  if (is_cut) out += ' ';
   // A tab keeps its own width above and below.
   for (std::size_t i = window.first; i < column; ++i) out += characters[i] == "\t" ? '\t' : ' ';
   const std::size_t line_end = std::max(window.last, column + 1);
-  const std::size_t end = d.end_line == d.line ? std::min<std::size_t>(d.end_column - 1, line_end) : line_end;
+  const std::size_t end =
+      d.end_line == d.line ? std::min<std::size_t>(d.end_column - d.source_column, line_end) : line_end;
   out.append(std::max<std::size_t>(1, end > column ? end - column : 1), '^');
-  if (!d.suggestion.empty()) out += ' ' + d.suggestion;
+  if (!d.suggestion.empty()) out += ' ' + one_line(d.suggestion);
   out += '\n';
 }
 
 void append_message(std::string& out, const Diagnostic& d, const char* label) {
-  out += fmt::format("{}: {}\n", label, d.message);
+  out += fmt::format("{}: {}\n", label, one_line(d.message));
   if (d.line == 0) {
-    if (!d.suggestion.empty()) out += fmt::format("  {}\n", d.suggestion);
+    if (!d.suggestion.empty()) out += fmt::format("  {}\n", one_line(d.suggestion));
     return;
   }
   const std::size_t gutter = std::to_string(d.line).size();
-  out += fmt::format("{:>{}}--> {}:{}:{}\n", "", gutter, d.file, d.line, d.column);
+  out += fmt::format("{:>{}}--> {}:{}:{}\n", "", gutter, one_line(d.file), d.line, d.column);
   append_snippet(out, d, gutter);
 }
 
@@ -96,15 +93,15 @@ std::string to_json(const Diagnostic& d) {
   std::string out = fmt::format(
       R"({{"file": {}, "line": {}, "column": {}, "end_line": {}, "end_column": {}, "severity": "{}", "message": {}, "suggestion": {})",
       json_string(d.file), d.line, d.column, d.end_line, d.end_column,
-      d.severity == Severity::kError ? "error" : "warning", json_string(d.message),
-      json_string(d.suggestion));
+      d.severity == Severity::kError ? "error" : "warning", json_string(message_text(d.message)),
+      json_string(message_text(d.suggestion)));
   if (!d.notes.empty()) {
     out += ", \"notes\": [";
     for (std::size_t i = 0; i < d.notes.size(); ++i) {
       const Diagnostic& n = d.notes[i];
       out += fmt::format(R"({}{{"file": {}, "line": {}, "column": {}, "end_column": {}, "message": {}}})",
                          i > 0 ? ", " : "", json_string(n.file), n.line, n.column, n.end_column,
-                         json_string(n.message));
+                         json_string(message_text(n.message)));
     }
     out += ']';
   }

@@ -23,7 +23,11 @@ Diagnostic make_diagnostic(Severity severity, const Place& place, std::string me
   d.column = begin.column;
   d.end_line = end.line;
   d.end_column = end.column;
-  d.source_line = std::string(place.source->line_at(place.span.begin));
+  constexpr std::uint32_t kReach = 500;  // bytes to either side: more than a message shows, and lines can be megabytes
+  const std::string_view line = place.source->line_at(place.span.begin, kReach);
+  d.source_line = std::string(line);
+  d.source_column =
+      place.source->locate(static_cast<std::uint32_t>(line.data() - place.source->text().data())).column;
   return d;
 }
 
@@ -42,7 +46,11 @@ void sort_by_place(std::vector<Diagnostic>& messages) {
 
 void Diagnostics::error(const Place& place, std::string message, std::string suggestion,
                         const std::vector<Note>& notes) {
-  if (muted_ || !error_places_.emplace(place.source, place.span.begin, place.span.end).second) return;
+  if (muted_) return;
+  if (!error_places_.emplace(place.source, place.span.begin, place.span.end).second) {
+    ++repeated_;
+    return;
+  }
   if (++errors_ > kMostErrors) return;
   Diagnostic d = make_diagnostic(Severity::kError, place, std::move(message), std::move(suggestion));
   for (const Note& note : notes) {

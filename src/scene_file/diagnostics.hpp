@@ -51,12 +51,14 @@ class Diagnostics {
   bool is_listening() const { return !muted_ && errors_ < kMostErrors; }
   bool has_errors() const { return errors_ > 0; }
   std::size_t error_count() const { return errors_; }
+  /// Errors that were dropped because their place had one.
+  std::size_t repeated() const { return repeated_; }
   /// The messages from the top of the text to its end, and how many more there were; leaves the collector empty.
   std::vector<Diagnostic> take();
 
  private:
   std::vector<Diagnostic> messages_;
-  std::size_t errors_ = 0;
+  std::size_t errors_ = 0, repeated_ = 0;
   bool muted_ = false;
   std::vector<Place> used_from_;
   std::set<std::tuple<const Source*, std::uint32_t, std::uint32_t>> error_places_;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kLength = "scene units";
 constexpr std::string_view kDegrees = "degrees";
 constexpr Range kFieldOfView{0.001, 179, false};
-constexpr Range kBrightness{0, 1e12, false};
+constexpr Range kBrightness{0, 1e24, false};  // a quadratic light for lengths in the millions is beyond 1e15
 
 struct ImageInput {
   std::array<int, 2> size{960, 540};

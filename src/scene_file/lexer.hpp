@@ -32,6 +32,12 @@ struct Token {
 /// Whether a sign belongs to the number behind it (a list of values) or is an operator (inside parentheses).
 enum class LexMode : std::uint8_t { kValues, kExpression };
 
+/// A token and how it was read, for tools that rewrite files.
+struct ReadToken {
+  Token token;
+  LexMode mode = LexMode::kValues;
+};
+
 /// Reads tokens one after the other. Comments are kept aside, with their places, for tools that rewrite files.
 class Lexer {
  public:

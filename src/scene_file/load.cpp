@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "raytracer/error.hpp"
@@ -34,32 +35,67 @@ struct SceneText {
 class ScenesOverTime {
  public:
   ScenesOverTime(std::shared_ptr<SceneText> text, SceneDescription first, bool depends_on_time)
-      : text_(std::move(text)), first_(std::move(first)), depends_on_time_(depends_on_time) {}
+      : text_(std::move(text)), depends_on_time_(depends_on_time) {
+    latest_.description = std::move(first);
+  }
 
   std::shared_ptr<const Scene> at(double time) {
-    if (!depends_on_time_ || time == 0) {
-      if (!scene_) scene_ = std::make_shared<const Scene>(std::move(first_));
-      return scene_;
+    make_latest(time, false);
+    if (latest_.description) {
+      auto scene = std::make_shared<const Scene>(std::move(*latest_.description));
+      latest_.description.reset();
+      if (!depends_on_time_) only_scene_ = scene;
+      return scene;
     }
+    return only_scene_;
+  }
+
+  SceneMoment moment(double time) {
+    make_latest(time, true);
+    return *latest_.moment;
+  }
+
+ private:
+  struct Evaluated {
+    double time = 0;
+    std::optional<SceneDescription> description;  // until a scene is made of it
+    std::optional<SceneMoment> moment;            // where it was asked for
+  };
+
+  // Evaluates the scene unless the latest evaluation will do.
+  void make_latest(double time, bool with_moment) {
+    const bool is_same = !depends_on_time_ || time == latest_.time;
+    const bool has_scene = latest_.description || only_scene_;
+    if (is_same && (with_moment ? latest_.moment.has_value() : has_scene)) return;
+    latest_ = {};
+    latest_ = evaluate(time, with_moment);
+  }
+
+  Evaluated evaluate(double time, bool with_moment) const {
     Diagnostics diagnostics;
     const Moment moment{time, static_cast<int>(std::floor(time * text_->fps + 1e-6)) + 1};
     Builder builder(*text_->files, text_->options.limits, moment, diagnostics);
     scene_file::apply_settings(text_->options.settings, *text_->files, builder);
+    scene_file::SceneHasher hasher;
+    if (with_moment) builder.hash_into(hasher);
     builder.build(*text_->tree);
     if (diagnostics.has_errors()) {
       std::string all;
       for (const Diagnostic& diagnostic : diagnostics.take()) all += to_text(diagnostic) + '\n';
       throw Error(ErrorKind::kScene, fmt::format("the scene is wrong at t = {}:\n{}", time, all));
     }
-    scene_file::finish(builder.draft(), text_->options, text_->name, diagnostics);
-    return std::make_shared<const Scene>(std::move(builder.draft().scene));
+    Evaluated evaluated;
+    evaluated.time = time;
+    const RenderSettings settings = scene_file::finish(builder.draft(), text_->options, text_->name, diagnostics);
+    if (with_moment) evaluated.moment = {settings, hasher.finish(settings, text_->options.camera)};
+    evaluated.description = std::move(builder.draft().scene);
+    return evaluated;
   }
 
- private:
   std::shared_ptr<SceneText> text_;
-  SceneDescription first_;
   bool depends_on_time_;
-  std::shared_ptr<const Scene> scene_;
+  Evaluated latest_;
+  std::shared_ptr<const Scene> only_scene_;  // of a scene that does not depend on time
 };
 
 LoadedScene load(std::string text, const std::string& name, const std::string& path, const LoadOptions& options) {
@@ -93,6 +129,7 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
     const auto scenes =
         std::make_shared<ScenesOverTime>(scene_text, std::move(draft.scene), loaded.depends_on_time);
     loaded.scene_at = [scenes](double time) { return scenes->at(time); };
+    loaded.moment_at = [scenes](double time) { return scenes->moment(time); };
   }
   loaded.diagnostics = diagnostics.take();
   return loaded;

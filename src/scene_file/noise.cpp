@@ -5,16 +5,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/hash.hpp"
+
 namespace raytracer::scene_file {
 namespace {
-
-// The finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators").
-std::uint64_t mix_bits(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15U;
-  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31U);
-}
 
 std::uint64_t hash_numbers(std::span<const double> numbers) {
   std::uint64_t hash = mix_bits(numbers.size());

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "scene_file/expression_parser.hpp"
@@ -18,10 +19,15 @@ namespace {
 
 constexpr int kLanguageVersion = 1;
 
+bool is_statement(std::string_view word) {
+  constexpr std::string_view kStatements[] = {"include", "let", "for", "if", "else", "define"};
+  return std::ranges::find(kStatements, word) != std::end(kStatements);
+}
+
 class Parser {
  public:
-  Parser(const Source& source, Names& names, Diagnostics& diagnostics)
-      : tree_(std::make_unique<SyntaxTree>()), tokens_(source, names, tree_->arena, diagnostics) {
+  Parser(const Source& source, Names& names, Diagnostics& diagnostics, std::vector<ReadToken>* record)
+      : tree_(std::make_unique<SyntaxTree>()), tokens_(source, names, tree_->arena, diagnostics, record) {
     tree_->source = &source;
   }
 
@@ -151,7 +157,7 @@ void Parser::parse_bad_block(std::vector<ItemNode>& items) {
   tokens_.advance();
   // What follows are its properties, up to a '}' or the next block.
   tokens_.mute(true);
-  while (tokens_.is(TokenType::kWord) && words_before_brace() == 0 && !is_reserved(tokens_.text()) &&
+  while (tokens_.is(TokenType::kWord) && words_before_brace() == 0 && !is_statement(tokens_.text()) &&
          find_kind(tokens_.text()) == nullptr) {
     parse_property(tokens_.text(kind));
   }
@@ -166,7 +172,7 @@ int Parser::words_before_brace() const {
   for (int words = 1; words <= most; ++words) {
     const Token token = ahead.next(LexMode::kValues);
     if (token.type == TokenType::kOpenBrace) return words;
-    if (token.type != TokenType::kWord || is_reserved(tokens_.text(token.span))) return 0;
+    if (token.type != TokenType::kWord || is_statement(tokens_.text(token.span))) return 0;
   }
   return 0;
 }
@@ -213,10 +219,7 @@ const BlockNode* Parser::parse_block(int words) {
 
 // Whether the word that follows a property's name is not its value but the next property: `radius center 0 1 0`.
 bool Parser::begins_next_property(Context context) const {
-  if (is_reserved(tokens_.text()) && find_function(tokens_.text()) == nullptr && !tokens_.is_word("true") &&
-      !tokens_.is_word("false") && !tokens_.is_word("pi") && !tokens_.is_word("t") && !tokens_.is_word("frame")) {
-    return true;
-  }
+  if (is_statement(tokens_.text())) return true;
   if (!is_property_of(context, tokens_.text())) return false;
   const TokenType next = tokens_.ahead().next(LexMode::kValues).type;
   return next == TokenType::kNumber || next == TokenType::kString || next == TokenType::kColor ||
@@ -283,7 +286,7 @@ const IncludeNode* Parser::parse_include() {
     if (!tokens_.is(TokenType::kBad)) {
       tokens_.error(include.keyword, "'include' needs the name of a file", "include \"parts.txt\"");
     }
-    if (tokens_.is(TokenType::kBad) || (tokens_.is(TokenType::kWord) && words_before_brace() == 0)) tokens_.advance();
+    if (tokens_.is(TokenType::kBad) || (tokens_.is(TokenType::kWord) && find_kind(tokens_.text()) == nullptr)) tokens_.advance();
     if (tokens_.is(TokenType::kOpenBrace)) {
       tokens_.mute(true);
       skip_nested_braces();
@@ -318,7 +321,7 @@ void Parser::skip_to_statement() {
   while (!tokens_.is(TokenType::kEnd) && !tokens_.is(TokenType::kCloseBrace)) {
     if (tokens_.is(TokenType::kOpenBrace)) return skip_nested_braces();
     tokens_.advance();
-    if (tokens_.is(TokenType::kWord) && (is_reserved(tokens_.text()) || words_before_brace() > 0)) return;
+    if (tokens_.is(TokenType::kWord) && (is_statement(tokens_.text()) || words_before_brace() > 0)) return;
   }
 }
 
@@ -527,8 +530,9 @@ void Parser::skip_nested_braces() {
 
 }  // namespace
 
-std::unique_ptr<SyntaxTree> parse(const Source& source, Names& names, Diagnostics& diagnostics) {
-  return Parser(source, names, diagnostics).parse();
+std::unique_ptr<SyntaxTree> parse(const Source& source, Names& names, Diagnostics& diagnostics,
+                                  std::vector<ReadToken>* record) {
+  return Parser(source, names, diagnostics, record).parse();
 }
 
 const Expression* parse_lone_expression(const Source& source, Names& names, Arena& arena, Diagnostics& diagnostics) {

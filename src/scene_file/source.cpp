@@ -33,10 +33,14 @@ LineColumn Source::locate(std::uint32_t offset) const {
   return {line, static_cast<std::uint32_t>(characters) + 1};
 }
 
-std::string_view Source::line_at(std::uint32_t offset) const {
-  const std::string_view text = text_;
-  const std::size_t before = offset == 0 ? std::string_view::npos : text.find_last_of("\r\n", offset - 1);
-  const std::size_t start = before == std::string_view::npos ? 0 : before + 1;
+std::string_view Source::line_at(std::uint32_t offset, std::uint32_t reach) const {
+  std::size_t first = offset > reach ? offset - reach : 0;
+  std::size_t last = text_.size() - offset > reach ? offset + reach : text_.size();
+  while (first > 0 && first < offset && is_continuation_byte(text_[first])) ++first;
+  while (last > offset && last < text_.size() && is_continuation_byte(text_[last])) --last;
+  const std::string_view text = std::string_view(text_).substr(0, last);
+  const std::size_t before = text.substr(first, offset - first).find_last_of("\r\n");
+  const std::size_t start = before == std::string_view::npos ? first : first + before + 1;
   const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
   std::string_view line = text.substr(start, end - start);
   if (start == 0 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);

@@ -37,10 +37,16 @@ void Builder::build_include(const IncludeNode& include, const Surroundings& arou
   if (tree == nullptr) return;
   Surroundings inside = around;
   inside.source = tree->source;
+  // A file with mistakes in it has told them after a few turns; more of them would only take time.
+  constexpr int kMostBadTurns = 100;
+  int& bad_turns = bad_includes_[tree];
+  if (bad_turns > kMostBadTurns) return;
+  const std::size_t errors_before = diagnostics_.error_count() + diagnostics_.repeated();
   const Diagnostics::UsedFrom used_from(diagnostics_, {around.source, {include.keyword.begin, include.file.span.end}});
   ++include_depth_;
   build_items(tree->items, inside);
   --include_depth_;
+  if (diagnostics_.error_count() + diagnostics_.repeated() > errors_before) ++bad_turns;
 }
 
 void Builder::build_let(const LetNode& let, const Surroundings& around, std::size_t let_base) {

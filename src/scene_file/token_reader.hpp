@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene_file/lexer.hpp"
 #include "scene_file/syntax.hpp"
@@ -11,9 +12,16 @@ namespace raytracer::scene_file {
 
 class TokenReader {
  public:
-  TokenReader(const Source& source, Names& names, Arena& arena, Diagnostics& diagnostics)
-      : source_(source), names_(names), arena_(arena), diagnostics_(diagnostics), lexer_(source, diagnostics) {
-    current_ = lexer_.next(mode_);
+  /// `record`, where it is given, gets every token that is read.
+  TokenReader(const Source& source, Names& names, Arena& arena, Diagnostics& diagnostics,
+              std::vector<ReadToken>* record = nullptr)
+      : source_(source),
+        names_(names),
+        arena_(arena),
+        diagnostics_(diagnostics),
+        lexer_(source, diagnostics),
+        record_(record) {
+    read();
   }
 
   const Token& current() const { return current_; }
@@ -26,7 +34,7 @@ class TokenReader {
 
   void advance() {
     previous_end_ = current_.span.end;
-    current_ = lexer_.next(mode_);
+    read();
   }
   /// How the tokens behind the current one are read.
   void set_mode(LexMode mode) { mode_ = mode; }
@@ -46,6 +54,11 @@ class TokenReader {
   }
 
  private:
+  void read() {
+    current_ = lexer_.next(mode_);
+    if (record_ != nullptr) record_->push_back({current_, mode_});
+  }
+
   const Source& source_;
   Names& names_;
   Arena& arena_;
@@ -54,6 +67,7 @@ class TokenReader {
   Token current_;
   LexMode mode_ = LexMode::kValues;
   std::uint32_t previous_end_ = 0;
+  std::vector<ReadToken>* record_;
 };
 
 }  // namespace raytracer::scene_file

@@ -14,7 +14,8 @@ namespace raytracer::shapes {
 /// The discriminant is taken from the point of the line that is closest to the centre, and the end close to
 /// `from` as a quotient: E. Haines, J. Günther, T. Akenine-Möller, "Precision Improvements for Ray/Sphere
 /// Intersection", Ray Tracing Gems, 2019, chapter 7. T is float or double; Vector is any three of them.
-template <class T, class Vector>
+/// Without kBranches it computes all in any case, for loops that the compiler shall vectorise.
+template <bool kBranches = true, class T, class Vector>
 inline bool intersect_ball(const Vector& from, const Vector& direction, T radius, Span<T>& span) {
   const T b = -glm::dot(from, direction);
   const T squared_radius = radius * radius;
@@ -22,13 +23,16 @@ inline bool intersect_ball(const Vector& from, const Vector& direction, T radius
   const T inverse_a = T(1) / glm::dot(direction, direction);
   const Vector closest = from + (b * inverse_a) * direction;
   const T discriminant = squared_radius - glm::dot(closest, closest);
-  if (!(discriminant >= 0)) return false;
+  if constexpr (kBranches) {
+    if (!(discriminant >= 0)) return false;
+  }
   const T half_chord = std::sqrt(discriminant * inverse_a);
   const T middle = b * inverse_a;
   const T larger = middle + std::copysign(half_chord, b);
   const T smaller = c * inverse_a / larger;
-  span = smaller < larger ? Span<T>{smaller, larger} : Span<T>{larger, smaller};
-  return true;
+  span.near = smaller < larger ? smaller : larger;
+  span.far = smaller < larger ? larger : smaller;
+  return discriminant >= 0;
 }
 
 }  // namespace raytracer::shapes

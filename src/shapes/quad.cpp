@@ -33,40 +33,62 @@ class Quad final : public Shape {
     }
     bounds_ = shapes::rounded_bounds(lower, upper);
     extent_ = upper - lower;
+    arithmetic_ = 8 * kDoubleRounding * (glm::length(origin_) + glm::length(extent_));
   }
 
   Box3f bounds() const override { return bounds_; }
 
   bool is_hit(const Ray3f& ray, Hit& hit) const override {
-    const Vector3d direction(ray.direction);
-    const Vector3d from = Vector3d(ray.origin) - origin_;
-    const double t = -glm::dot(normal_, from) / glm::dot(normal_, direction);
-    if (!shapes::is_on_ray(ray, t)) return false;
-    const Vector3d point = from + t * direction;
-    const double u = glm::dot(along_width_, point);
-    const double v = glm::dot(along_height_, point);
-    // So wide a rim that two quads with a common edge leave no gap between them.
-    constexpr double kRim = 1e-12;
-    if (!(u >= -kRim && u <= 1 + kRim && v >= -kRim && v <= 1 + kRim)) return false;
-    shapes::set_hit(hit, t, 0, static_cast<float>(std::clamp(u, 0.0, 1.0)),
-                    static_cast<float>(std::clamp(v, 0.0, 1.0)));
+    const PlaneHit plane = meet_plane(ray.origin, ray.direction);
+    if (!shapes::is_on_ray(ray, plane.t) || !is_within(plane)) return false;
+    shapes::set_hit(hit, plane.t, 0, clamped(plane.u), clamped(plane.v));
     return true;
+  }
+
+  void find_hits(const RayPacket& rays, HitPacket& hits) const override {
+    for (int i = 0; i < RayPacket::kSize; ++i) {
+      const PlaneHit plane = meet_plane(rays.origin(i), rays.direction(i));
+      const float t = shapes::first_on_ray(rays, i, plane.t, plane.t);
+      hits.t[i] = is_within(plane) ? t : kInfinity;
+      hits.primitive[i] = 0;
+      hits.u[i] = clamped(plane.u);
+      hits.v[i] = clamped(plane.v);
+    }
   }
 
   SurfacePoint surface_at(const Ray3f&, const Hit& hit) const override {
     const Vector3d position =
         origin_ + static_cast<double>(hit.u) * width_ + static_cast<double>(hit.v) * height_;
     shapes::SurfaceBound bound;
-    bound.arithmetic = 8 * kDoubleRounding * (glm::length(origin_) + glm::length(extent_));
+    bound.arithmetic = arithmetic_;
     bound.extent = extent_;
     return shapes::rounded_surface(position, normal_, {hit.u, hit.v}, bound);
   }
 
  private:
+  struct PlaneHit {
+    double t, u, v;
+  };
+  PlaneHit meet_plane(const Vector3f& origin, const Vector3f& direction) const {
+    const Vector3d from = Vector3d(origin) - origin_;
+    const double t = -glm::dot(normal_, from) / glm::dot(normal_, Vector3d(direction));
+    const Vector3d point = from + t * Vector3d(direction);
+    return {t, glm::dot(along_width_, point), glm::dot(along_height_, point)};
+  }
+
+  static bool is_within(const PlaneHit& hit) {
+    // So wide a rim that two quads with a common edge leave no gap between them.
+    constexpr double kRim = 1e-12;
+    return (hit.u >= -kRim) & (hit.u <= 1 + kRim) & (hit.v >= -kRim) & (hit.v <= 1 + kRim);
+  }
+
+  static float clamped(double share) { return static_cast<float>(share < 0 ? 0 : share > 1 ? 1 : share); }
+
   Vector3d origin_, width_, height_;
   Vector3d normal_;
   Vector3d along_width_, along_height_;  // the product with a point of the plane, from origin_, is its u or v
   Vector3d extent_{0.0};
+  double arithmetic_ = 0;  // error of the arithmetic on a point of the surface
   Box3f bounds_;
 };
 

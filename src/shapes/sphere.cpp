@@ -44,7 +44,10 @@ bool set_ball_hit(const Ray3f& ray, const Span<double>& span, Hit& hit) {
 class Sphere final : public Shape {
  public:
   Sphere(const Vector3d& center, double radius)
-      : center_(center), radius_(radius), bounds_(shapes::rounded_bounds(center - radius, center + radius)) {}
+      : center_(center),
+        radius_(radius),
+        arithmetic_(8 * kDoubleRounding * (2 * radius + glm::length(center))),
+        bounds_(shapes::rounded_bounds(center - radius, center + radius)) {}
 
   Box3f bounds() const override { return bounds_; }
 
@@ -52,6 +55,16 @@ class Sphere final : public Shape {
     Span<double> span;
     return shapes::intersect_ball(Vector3d(ray.origin) - center_, Vector3d(ray.direction), radius_, span) &&
            set_ball_hit(ray, span, hit);
+  }
+
+  void find_hits(const RayPacket& rays, HitPacket& hits) const override {
+    for (int i = 0; i < RayPacket::kSize; ++i) {
+      Span<double> span;
+      const bool crosses =
+          shapes::intersect_ball<false>(Vector3d(rays.origin(i)) - center_, Vector3d(rays.direction(i)), radius_, span);
+      hits.t[i] = crosses ? shapes::first_on_ray(rays, i, span.near, span.far) : kInfinity;
+    }
+    shapes::clear_parameters(hits);
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
@@ -64,13 +77,14 @@ class Sphere final : public Shape {
     const Vector3d rounding = 2 * kFloatRounding * glm::abs(position);
     bound.bend =
         kTilt * radius_ + std::min(0.5 * glm::dot(rounding, rounding) / radius_, glm::length(rounding));
-    bound.arithmetic = 8 * kDoubleRounding * (2 * radius_ + glm::length(center_));
+    bound.arithmetic = arithmetic_;
     return shapes::rounded_surface(position, normal, sphere_uv(normal), bound);
   }
 
  private:
   Vector3d center_;
   double radius_;
+  double arithmetic_;  // error of the arithmetic on a point of the surface
   Box3f bounds_;
 };
 

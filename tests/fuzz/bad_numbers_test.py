@@ -14,12 +14,20 @@ SURELY_WRONG = {"nan", "inf", "-inf", "1e999", "-1e999", "0x1p3"}
 FRAME = {"camera": "camera { position 0.5 1 6 look_at 0 0 0 }", "light": "light { position 2 5 6 }"}
 
 
+# What these kinds can't be without.
+NEEDED = {"triangle": {"a": "0 0 0", "b": "1 0 0", "c": "0 1 0"}, "animation": {"duration": "4"}}
+# All kinds share the code that places them: these stand for all.
+PLACED = {"sphere", "camera", "light spot", "group", "plane"}
+
+
 def kinds():
     """(kind, {property: sound values}) for each kind of help."""
     listed = re.findall(r"^  (\w+(?: \w+)?)  ", program.run("help").stdout.decode(), re.MULTILINE)
     for kind in listed:
         page = program.run("help", kind.split()[0]).stdout.decode()
         section = re.search(rf"^{kind}:.*?(?=^\w+(?: \w+)?: |\Z)", page, re.MULTILINE | re.DOTALL)[0]
+        if kind not in PLACED:
+            section = section.partition("Where it stands")[0]
         yield kind, dict(numeric_properties(section))
 
 
@@ -36,10 +44,7 @@ def numeric_properties(page):
 
 def block(kind, name, values):
     properties = f"{name} {' '.join(values)}"
-    if kind == "triangle":
-        others = {"a": "0 0 0", "b": "1 0 0", "c": "0 1 0"}
-        others.pop(name, None)
-        properties += "".join(f" {other} {point}" for other, point in others.items())
+    properties += "".join(f" {other} {value}" for other, value in NEEDED.get(kind, {}).items() if other != name)
     if kind == "material":
         return f"sphere {{ material {{ {properties} }} }}"
     if kind == "group":
@@ -63,7 +68,7 @@ class BadNumbers(unittest.TestCase):
         found = dict(kinds())
         self.assertGreaterEqual(len(found), 17)
         self.assertEqual(found["sphere"]["radius"], ["1"])
-        self.assertEqual(len(found["cube"]["matrix"]), 12)
+        self.assertEqual(len(found["group"]["matrix"]), 12)
         self.assertIn("fov", found["camera"])
         self.assertIn("soft_edge", found["light spot"])
 

@@ -149,6 +149,38 @@ class Floods(Hostile):
             self.check(text, seconds=2)
 
 
+class Programs(Hostile):
+    """Loops, definitions and expressions always end, and within bounds."""
+
+    def test_chains_of_operators(self):
+        for link in ("(", "-", "not ", "1 + ", "2 ^ ", "true ? 1 : ", "true ? ", "sin(", "true and ", "1 < "):
+            self.check("let x = " + link * 100000 + "1\n", expected=[1], seconds=3)
+        self.check("let x = (1, 2, 3)" + ".x" * 100000 + "\n", expected=[1], seconds=3)
+
+    def test_loops_that_would_not_end(self):
+        for loop in ("for i from 0 to 1e18 { }", "for i from 0 to 1/0 { }", "for i from 0 to 5 step 0 { }",
+                     "for i from 0 to 1 step 1e-300 { }", "for i from 0 to 1e300 { sphere { } }"):
+            done = self.check(loop, expected=[1])
+            self.assertEqual(done.stderr.count(b"error: "), 1)
+            self.assertLess(len(done.stderr), 400)
+
+    def test_definitions_that_use_themselves(self):
+        for text in ("define a () { a { } }\na { }\n", "define a (n 1) { a { n (n + 1) } }\na { }\n"):
+            done = self.check(text, expected=[1])
+            self.assertEqual(done.stderr.count(b"error: "), 1)
+
+    def test_mistakes_and_warnings_in_loops_are_told_once(self):
+        for body in ("sphere { raduis 1 }", "sphere { radius (0 - i) }", "sphere { material m }", 'include "missing.txt"'):
+            done = self.check(f"for i from 1 to 100000 {{ {body} }}\n", expected=[1])
+            self.assertEqual(done.stderr.count(b"error: "), 1, body)
+        done = self.check("for i from 1 to 100000 { material m { } }\nsphere { }\n", expected=[0])
+        self.assertLess(done.stderr.count(b"warning: "), 5)
+
+    def test_floods_of_warnings_end_in_a_count(self):
+        done = self.check("".join(f"let a{i} = {i}\n" for i in range(20000)) + "sphere { }\n", expected=[0])
+        self.assertLess(done.stderr.count(b"warning: "), 1000)
+
+
 class Broken(Hostile):
     """A sample of what the unit tests do with every byte: here the whole program reads it."""
 

@@ -41,17 +41,28 @@ std::unique_ptr<Shape> make_any(int kind, Random& random, const Transform& place
   const Vector3d at = random.vector(5), a = random.unit(), b = random.unit();
   const double r = random.in(0.2, 1.5);
   switch (kind) {
-    case 0: return make_sphere(at, r, placed);
-    case 1: return make_quad(at, r * a, 2.0 * b, placed);
-    case 2: return make_triangle(at, at + 2.0 * a, at + 2.0 * b, placed);
-    case 3: return make_cube(at, Vector3d(r, 1, 0.5), placed);
-    case 4: return make_plane(4.0 * at, a, placed);
-    case 5: return make_disk(at, a, r, placed);
-    case 6: return make_cylinder(at, at + 2.0 * a, 0.5 * r, false, placed);
-    case 7: return make_cylinder(at, at + 2.0 * a, 0.5 * r, true, placed);
-    case 8: return make_cone(at, r, at + 2.0 * a, 0.2, false, placed);
-    case 9: return make_cone(at, r, at + 2.0 * a, 0, true, placed);
-    default: return make_torus(at, a, r, 0.3 * r, placed);
+    case 0:
+      return make_sphere(at, r, placed);
+    case 1:
+      return make_quad(at, r * a, 2.0 * b, placed);
+    case 2:
+      return make_triangle(at, at + 2.0 * a, at + 2.0 * b, placed);
+    case 3:
+      return make_cube(at, Vector3d(r, 1, 0.5), placed);
+    case 4:
+      return make_plane(4.0 * at, a, placed);
+    case 5:
+      return make_disk(at, a, r, placed);
+    case 6:
+      return make_cylinder(at, at + 2.0 * a, 0.5 * r, false, placed);
+    case 7:
+      return make_cylinder(at, at + 2.0 * a, 0.5 * r, true, placed);
+    case 8:
+      return make_cone(at, r, at + 2.0 * a, 0.2, false, placed);
+    case 9:
+      return make_cone(at, r, at + 2.0 * a, 0, true, placed);
+    default:
+      return make_torus(at, a, r, 0.3 * r, placed);
   }
 }
 
@@ -82,18 +93,28 @@ ShapeList list_of(const Shapes& shapes) {
   return {pointers, indices};
 }
 
-/// Any ray, or one that skims the tree's boxes: along an axis, with a short stretch, with a direction of another length.
+/// Any ray, or one that skims the tree's boxes: along an axis, with a short stretch, with a direction of
+/// another length.
 Ray3f random_ray(Random& random, const std::vector<Vector3f>& starts) {
   Ray3f ray{Vector3f(random.vector(8)), Vector3f(random.unit())};
   if (!starts.empty() && random.below(3) == 0) {
     ray.origin = starts[static_cast<std::size_t>(random.below(static_cast<int>(starts.size())))];
   }
   switch (random.below(6)) {
-    case 0: ray.direction = {0, random.below(2) == 0 ? 1 : -1, 0}; break;
-    case 1: ray.t_max = static_cast<float>(random.in(0.1, 6)); break;
-    case 2: ray.direction *= static_cast<float>(std::exp(random.in(-7, 7))); break;
-    case 3: ray.t_min = static_cast<float>(random.in(0, 4)); break;
-    default: break;
+    case 0:
+      ray.direction = {0, random.below(2) == 0 ? 1 : -1, 0};
+      break;
+    case 1:
+      ray.t_max = static_cast<float>(random.in(0.1, 6));
+      break;
+    case 2:
+      ray.direction *= static_cast<float>(std::exp(random.in(-7, 7)));
+      break;
+    case 3:
+      ray.t_min = static_cast<float>(random.in(0, 4));
+      break;
+    default:
+      break;
   }
   return ray;
 }
@@ -116,9 +137,10 @@ Counts compare(const Shapes& shapes, int rays, std::uint32_t seed) {
       ++counts.hits;
       if (starts.size() < 1000) starts.push_back(shapes[expected.shape]->surface_at(ray, expected).position);
     }
-    const bool same = is_hit == is_expected &&
-                      (!is_hit || (hit.t == expected.t && hit.shape == expected.shape &&
-                                   hit.primitive == expected.primitive && hit.u == expected.u && hit.v == expected.v));
+    const bool same =
+        is_hit == is_expected &&
+        (!is_hit || (hit.t == expected.t && hit.shape == expected.shape &&
+                     hit.primitive == expected.primitive && hit.u == expected.u && hit.v == expected.v));
     if (!same) {
       ++counts.different;
       UNSCOPED_INFO("ray " << counts.rays << " finds shape " << hit.shape << " at " << hit.t << ", not "
@@ -169,7 +191,8 @@ TEST_CASE("among coincident shapes the first wins", "[accelerator]") {
     Random random(90 + seed);
     for (int i = 0; i < 2000; ++i) {
       Hit hit;
-      if (accelerator.is_hit(random_ray(random, {}), hit)) REQUIRE(hit.shape < static_cast<std::uint32_t>(count));
+      if (accelerator.is_hit(random_ray(random, {}), hit))
+        REQUIRE(hit.shape < static_cast<std::uint32_t>(count));
     }
   }
 }
@@ -195,7 +218,8 @@ TEST_CASE("between a plane and a flat shape in it the first wins, whichever it i
   }
 }
 
-TEST_CASE("shapes that share their edges leave no gap, and the tree agrees on whose the edge is", "[accelerator]") {
+TEST_CASE("shapes that share their edges leave no gap, and the tree agrees on whose the edge is",
+          "[accelerator]") {
   // A chessboard of quads, looked at exactly through its corners and edges.
   Shapes shapes;
   for (int x = -4; x < 4; ++x) {

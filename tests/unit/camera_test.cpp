@@ -10,7 +10,9 @@ using namespace raytracer;
 
 namespace {
 
-bool is_near(const Vector3d& a, const Vector3d& b, double tolerance) { return glm::length(a - b) <= tolerance; }
+bool is_near(const Vector3d& a, const Vector3d& b, double tolerance) {
+  return glm::length(a - b) <= tolerance;
+}
 
 }  // namespace
 
@@ -22,7 +24,7 @@ TEST_CASE("rays go through the picture's corners, edges and middle", "[camera]")
     double x, y;
     Vector3d direction;
   } known[] = {
-      {0.5, 0.5, {0, 0, -1}}, {0, 0, {-1, 1, -1}}, {1, 0, {1, 1, -1}},  {0, 1, {-1, -1, -1}},
+      {0.5, 0.5, {0, 0, -1}}, {0, 0, {-1, 1, -1}},  {1, 0, {1, 1, -1}},   {0, 1, {-1, -1, -1}},
       {1, 1, {1, -1, -1}},    {0.5, 0, {0, 1, -1}}, {1, 0.5, {1, 0, -1}},
   };
   for (const auto& k : known) {
@@ -46,7 +48,8 @@ TEST_CASE("any camera shoots the ray of the formula", "[camera]") {
     const Vector3d from = vector(), at = vector(), up = vector();
     const Vector3d f = glm::normalize(at - from);
     if (glm::length(glm::cross(f, glm::normalize(up))) < 0.05) continue;
-    const double half_width = number(0.01, 3), half_height = number(0.01, 3), x = number(0, 1), y = number(0, 1);
+    const double half_width = number(0.01, 3), half_height = number(0.01, 3), x = number(0, 1),
+                 y = number(0, 1);
     const Vector3d r = glm::normalize(glm::cross(f, up)), u = glm::cross(r, f);
     const Ray3f ray = Camera(from, at, up, half_width, half_height).ray_through(x, y);
     const Vector3d expected =

@@ -32,14 +32,18 @@ TEST_CASE("names have the values of the standard", "[colors]") {
     const char* name;
     Vector3d color;
   } known[] = {
-      {"black", bytes(0, 0, 0)},          {"white", bytes(255, 255, 255)},      {"red", bytes(255, 0, 0)},
-      {"lime", bytes(0, 255, 0)},         {"green", bytes(0, 128, 0)},          {"blue", bytes(0, 0, 255)},
-      {"aliceblue", bytes(240, 248, 255)}, {"yellowgreen", bytes(154, 205, 50)}, {"tomato", bytes(255, 99, 71)},
-      {"rebeccapurple", bytes(102, 51, 153)}, {"orange", bytes(255, 165, 0)},   {"gray", bytes(128, 128, 128)},
-      {"silver", bytes(192, 192, 192)},   {"darkgray", bytes(169, 169, 169)},   {"navy", bytes(0, 0, 128)},
-      {"teal", bytes(0, 128, 128)},       {"olive", bytes(128, 128, 0)},        {"maroon", bytes(128, 0, 0)},
-      {"goldenrod", bytes(218, 165, 32)}, {"hotpink", bytes(255, 105, 180)},    {"steelblue", bytes(70, 130, 180)},
-      {"peru", bytes(205, 133, 63)},      {"tan", bytes(210, 180, 140)},        {"chocolate", bytes(210, 105, 30)},
+      {"black", bytes(0, 0, 0)},           {"white", bytes(255, 255, 255)},
+      {"red", bytes(255, 0, 0)},           {"lime", bytes(0, 255, 0)},
+      {"green", bytes(0, 128, 0)},         {"blue", bytes(0, 0, 255)},
+      {"aliceblue", bytes(240, 248, 255)}, {"yellowgreen", bytes(154, 205, 50)},
+      {"tomato", bytes(255, 99, 71)},      {"rebeccapurple", bytes(102, 51, 153)},
+      {"orange", bytes(255, 165, 0)},      {"gray", bytes(128, 128, 128)},
+      {"silver", bytes(192, 192, 192)},    {"darkgray", bytes(169, 169, 169)},
+      {"navy", bytes(0, 0, 128)},          {"teal", bytes(0, 128, 128)},
+      {"olive", bytes(128, 128, 0)},       {"maroon", bytes(128, 0, 0)},
+      {"goldenrod", bytes(218, 165, 32)},  {"hotpink", bytes(255, 105, 180)},
+      {"steelblue", bytes(70, 130, 180)},  {"peru", bytes(205, 133, 63)},
+      {"tan", bytes(210, 180, 140)},       {"chocolate", bytes(210, 105, 30)},
   };
   for (const auto& k : known) {
     INFO(k.name);

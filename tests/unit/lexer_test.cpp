@@ -105,8 +105,9 @@ TEST_CASE("words, braces, strings and colours are told apart without blanks", "[
   REQUIRE(lexed.messages.empty());
   REQUIRE(lexed.texts == Texts{"sphere", "{", "color", "#fff", "}", "file", "\"a b\"", "(", "x", ")", "_a1"});
   using T = TokenType;
-  REQUIRE(lexed.types == std::vector<T>{T::kWord, T::kOpenBrace, T::kWord, T::kColor, T::kCloseBrace, T::kWord,
-                                        T::kString, T::kOpenParenthesis, T::kWord, T::kCloseParenthesis, T::kWord});
+  REQUIRE(lexed.types == std::vector<T>{T::kWord, T::kOpenBrace, T::kWord, T::kColor, T::kCloseBrace,
+                                        T::kWord, T::kString, T::kOpenParenthesis, T::kWord,
+                                        T::kCloseParenthesis, T::kWord});
 }
 
 TEST_CASE("comments end with their line, or nest, and are kept", "[lexer]") {
@@ -151,7 +152,9 @@ TEST_CASE("colours have three or six hexadecimal digits", "[lexer]") {
 }
 
 TEST_CASE("blanks of every kind and a byte-order mark only separate", "[lexer]") {
-  const Lexed lexed = lex("\xEF\xBB\xBF" "a\tb\vc\fd\r\ne  f\n");
+  const Lexed lexed =
+      lex("\xEF\xBB\xBF"
+          "a\tb\vc\fd\r\ne  f\n");
   REQUIRE(lexed.messages.empty());
   REQUIRE(lexed.texts == Texts{"a", "b", "c", "d", "e", "f"});
   REQUIRE(lex("").texts.empty());
@@ -159,7 +162,8 @@ TEST_CASE("blanks of every kind and a byte-order mark only separate", "[lexer]")
 }
 
 TEST_CASE("a text cut at any byte ends, and tells one mistake for what is left open", "[lexer]") {
-  const std::string text = "a \"s\\\"\" /* c /* d */ */ #ff8800 -1.5e-3 { } ( ) // e\n ä \xF0\x9F\x8E\x88 <= != \x01 \x7F";
+  const std::string text =
+      "a \"s\\\"\" /* c /* d */ */ #ff8800 -1.5e-3 { } ( ) // e\n ä \xF0\x9F\x8E\x88 <= != \x01 \x7F";
   for (std::size_t length = 0; length <= text.size(); ++length) {
     for (const LexMode mode : {LexMode::kValues, LexMode::kExpression}) {
       const Lexed lexed = lex(text.substr(0, length), mode);

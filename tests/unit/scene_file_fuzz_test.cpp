@@ -1,4 +1,5 @@
-// Broken scenes by the thousand: whatever the text, loading ends, and either there is a scene or an error with a place.
+// Broken scenes by the thousand: whatever the text, loading ends, and either there is a scene or an error
+// with a place.
 #include <algorithm>
 #include <cstdint>
 #include <random>
@@ -37,20 +38,38 @@ group swing {
   rotate 0 0 20
   material local { color 0.5 }
   quad { origin -1 0 -2 width 2 0 0 height 0 2 0 material local }
-  group { scale 0.5 cylinder { base 0 0 0 top 0 1 0 radius 0.3 open true } cone { base 1 0 0 top 1 1 0 top_radius 0.1 } }
+  group {
+    scale 0.5
+    cylinder { base 0 0 0 top 0 1 0 radius 0.3 open true }
+    cone { base 1 0 0 top 1 1 0 top_radius 0.1 }
+  }
   torus { center 0 2 0 axis 0 0 1 radius 0.8 tube_radius 0.2 }
 }
 triangle { a 0 0 1 b 1 0 1 c 0 1 1 matrix 1 0 0 0  0 1 0 0  0 0 1 0 }
+animation { duration 4 fps 24 }
+let n = 2 + 3 * 4 % 5 - 2 ^ 2
+let p = (1, 2, 3).x > 0 and not false ? (0, n, 0) : -(1, 1, 1)
+for i from 0 to 2 step 1 {
+  let a = 360 * i / 3 + 30 * t
+  sphere { center (cos(a)) 0.4 (sin(a)) radius (0.2 + random(i) / 10) material { color (hsv(a, 0.7, 0.9)) } }
+}
+define snowman (size 1, hat black) {
+  sphere { center p radius (0.5 * size) }
+  if size > 0.5 { snowman { size (size / 2) hat red translate -3 0 0 } }
+  cylinder { radius 0.3 material { color hat } }
+}
+snowman { size 2 rotate 0 20 0 }
 )";
 
 std::size_t line_count(std::string_view text) {
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n') + std::count(text.begin(), text.end(), '\r')) + 1;
+  const auto ends = std::count(text.begin(), text.end(), '\n') + std::count(text.begin(), text.end(), '\r');
+  return static_cast<std::size_t>(ends) + 1;
 }
 
 bool has_sane_place(const Diagnostic& diagnostic, std::string_view text) {
   if (diagnostic.line == 0) return true;  // of the scene as a whole
-  return diagnostic.line <= line_count(text) && diagnostic.column >= 1 && diagnostic.column <= text.size() + 1 &&
-         diagnostic.end_line >= diagnostic.line &&
+  return diagnostic.line <= line_count(text) && diagnostic.column >= 1 &&
+         diagnostic.column <= text.size() + 1 && diagnostic.end_line >= diagnostic.line &&
          (diagnostic.end_line > diagnostic.line || diagnostic.end_column >= diagnostic.column);
 }
 
@@ -88,10 +107,11 @@ class Dice {
 
 TEST_CASE("The scene that the broken ones are made of is sound") {
   const LoadedScene scene = load_scene_text(std::string(kWholeLanguage), "whole.txt");
-  for (const Diagnostic& diagnostic : scene.diagnostics) INFO(to_text(diagnostic));
-  REQUIRE(scene.diagnostics.empty());
+  std::string messages;
+  for (const Diagnostic& diagnostic : scene.diagnostics) messages += to_text(diagnostic);
+  REQUIRE(messages == "");
   REQUIRE(scene.ok());
-  REQUIRE(scene.shapes == 10);
+  REQUIRE(scene.shapes > 10);
 }
 
 TEST_CASE("A scene cut at every byte is a scene or a mistake with a place") {
@@ -131,12 +151,13 @@ TEST_CASE("A scene with pieces moved at random is a scene or a mistake with a pl
 
 TEST_CASE("Words of the language in any order are a scene or a mistake with a place") {
   constexpr std::string_view kWords[] = {
-      "sphere", "cube",   "group",    "light",    "spot",   "material", "camera", "image",  "include", "raytracer", "radius",
-      "center", "size",   "color",    "rotate",   "matrix", "red",      "chrome", "true",   "nan",     "-inf",      "1e999",
-      "1e-999", "0",      "-1",       "2",        "3.5",    "1e30",     "#fff",   "#12",    "\"a\"",   "\"",        "{",
-      "{",      "}",      "}",        "(",        ")",      ",",        "=",      "/*",     "*/",      "//",        "\n",
-      "\r",     "\xFF",   "\xC3\xA4", "\x1B[31m", ".",      "-",        "+",      "5cm",    "..",      "#",         "quad",
-      "width",  "height", "a",        "triangle", "open",   "pivot",    "scale",  "plane",  "normal",  "fov",       "t"};
+      "sphere", "cube", "group", "light", "spot", "material", "camera", "image", "include", "raytracer",
+      "radius", "center", "size", "color", "rotate", "matrix", "red", "chrome", "true", "nan", "-inf",
+      "1e999", "1e-999", "0", "-1", "2", "3.5", "1e30", "#fff", "#12", "\"a\"", "\"", "{", "{", "}", "}",
+      "(", ")", ",", "=", "/*", "*/", "//", "\n", "\r", "\xFF", "\xC3\xA4", "\x1B[31m", ".", "-", "+",
+      "5cm", "..", "#", "quad", "width", "height", "a", "triangle", "open", "pivot", "scale", "plane",
+      "normal", "fov", "t", "let", "for", "from", "to", "step", "if", "define", "and", "not", "?", ":", "^",
+      "==", "sin", "random", "<", "x", "(1,2)", "(1,2,3)", "hsv", "%", "i"};
   Dice dice;
   for (int i = 0; i < 4000; ++i) {
     std::string text;
@@ -149,11 +170,33 @@ TEST_CASE("Words of the language in any order are a scene or a mistake with a pl
 }
 
 TEST_CASE("What is nested far too deep is told, not followed") {
-  for (const std::string_view opening : {"group {", "sphere { material {", "/*", "{", "("}) {
+  for (const std::string_view opening :
+       {"group {", "sphere { material {", "/*", "{", "(", "if true {", "for i from 0 to 1 {", "define a () {",
+        "let x = ("}) {
     std::string text;
     for (int i = 0; i < 10000; ++i) text += opening;
     require_sound(text);
     REQUIRE_FALSE(load_scene_text(text, "deep.txt").ok());
+  }
+}
+
+TEST_CASE("Expressions nested or chained far too long are told, not followed") {
+  for (const std::string_view link :
+       {"(", "-", "not ", "1 + ", "2 ^ ", "1 - ", "true ? 1 : ", "true ? ", "sin(", "true and ", "1 < "}) {
+    std::string text = "let x = ";
+    for (int i = 0; i < 100000; ++i) text += link;
+    require_sound(text + "1\n");
+  }
+  std::string text = "let x = (1, 2, 3)";
+  for (int i = 0; i < 100000; ++i) text += ".x";
+  require_sound(text + "\n");
+}
+
+TEST_CASE("What a definition makes of itself ends") {
+  for (const char* text : {"define a () { a { } }\na { }\n", "define a (n 1) { a { n (n + 1) } }\na { }\n",
+                           "define a (n 1) { if n > 0 { a { n n } } }\na { }\n"}) {
+    require_sound(text);
+    REQUIRE_FALSE(load_scene_text(text, "endless.txt").ok());
   }
 }
 

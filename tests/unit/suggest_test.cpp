@@ -16,10 +16,10 @@ const std::vector<std::string_view> kWords = {"radius", "center",    "color",   
 }  // namespace
 
 TEST_CASE("one slip of the finger finds the word", "[suggest]") {
-  REQUIRE(nearest_word("raduis", kWords) == "radius");  // neighbours swapped
-  REQUIRE(nearest_word("radus", kWords) == "radius");   // a letter left out
+  REQUIRE(nearest_word("raduis", kWords) == "radius");   // neighbours swapped
+  REQUIRE(nearest_word("radus", kWords) == "radius");    // a letter left out
   REQUIRE(nearest_word("raddius", kWords) == "radius");  // a letter too many
-  REQUIRE(nearest_word("radios", kWords) == "radius");  // another letter
+  REQUIRE(nearest_word("radios", kWords) == "radius");   // another letter
   REQUIRE(nearest_word("Radius", kWords) == "radius");
   REQUIRE(nearest_word("COLOR", kWords) == "color");
   REQUIRE(nearest_word("colour", kWords) == "color");

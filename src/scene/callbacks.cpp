@@ -1,0 +1,158 @@
+#include "scene/callbacks.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "shapes/ray_packet.hpp"
+
+namespace raytracer {
+namespace {
+
+constexpr int kLanes = RayPacket::kSize;
+
+const Shape& shape_of(void* user_data, unsigned primitive) {
+  return *static_cast<const FiniteShapes*>(user_data)->shapes[primitive];
+}
+
+void bounds_callback(const RTCBoundsFunctionArguments* args) {
+  const Box3f box = shape_of(args->geometryUserPtr, args->primID).bounds();
+  *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
+}
+
+// --- one ray ---------------------------------------------------------------------------------------------------------
+
+// A ray among the `n` of a packet that lie in memory one coordinate after the other. n = 1 is a plain RTCRay.
+Ray3f ray_in(RTCRayN* rays, unsigned n, unsigned i) {
+  return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+          {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
+          RTCRayN_tnear(rays, n, i),
+          RTCRayN_tfar(rays, n, i)};
+}
+
+inline void intersect_one(const RTCIntersectFunctionNArguments& args, unsigned n, unsigned i) {
+  RTCRayN* rays = RTCRayHitN_RayN(args.rayhit, n);
+  RTCHitN* hits = RTCRayHitN_HitN(args.rayhit, n);
+  // A hit just as far as the nearest one so far still counts if its shape comes first.
+  const bool has_hit = RTCHitN_geomID(hits, n, i) != RTC_INVALID_GEOMETRY_ID;
+  Ray3f ray = ray_in(rays, n, i);
+  if (has_hit && args.primID < RTCHitN_primID(hits, n, i)) ray.t_max = std::nextafter(ray.t_max, kInfinity);
+  Hit hit;
+  if (!shape_of(args.geometryUserPtr, args.primID).is_hit(ray, hit)) return;
+  RTCRayN_tfar(rays, n, i) = hit.t;
+  RTCHitN_geomID(hits, n, i) = args.geomID;
+  RTCHitN_primID(hits, n, i) = args.primID;
+  RTCHitN_u(hits, n, i) = hit.u;
+  RTCHitN_v(hits, n, i) = hit.v;
+  RTCHitN_Ng_x(hits, n, i) = std::bit_cast<float>(hit.primitive);
+}
+
+inline void occlude_one(const RTCOccludedFunctionNArguments& args, unsigned n, unsigned i) {
+  Hit ignored;
+  if (shape_of(args.geometryUserPtr, args.primID).is_hit(ray_in(args.ray, n, i), ignored)) {
+    RTCRayN_tfar(args.ray, n, i) = -kInfinity;
+  }
+}
+
+// --- eight rays of a packet ------------------------------------------------------------------------------------------
+
+void copy_lanes(float* to, const float* from) { std::memcpy(to, from, kLanes * sizeof(float)); }
+
+// Lanes first … first + 7; those that are not `valid` are made idle.
+RayPacket load(RTCRayN* rays, unsigned n, unsigned first, const int* valid) {
+  RayPacket packet;
+  copy_lanes(packet.origin_x, &RTCRayN_org_x(rays, n, first));
+  copy_lanes(packet.origin_y, &RTCRayN_org_y(rays, n, first));
+  copy_lanes(packet.origin_z, &RTCRayN_org_z(rays, n, first));
+  copy_lanes(packet.direction_x, &RTCRayN_dir_x(rays, n, first));
+  copy_lanes(packet.direction_y, &RTCRayN_dir_y(rays, n, first));
+  copy_lanes(packet.direction_z, &RTCRayN_dir_z(rays, n, first));
+  copy_lanes(packet.t_min, &RTCRayN_tnear(rays, n, first));
+  const float* t_max = &RTCRayN_tfar(rays, n, first);
+  for (int i = 0; i < kLanes; ++i) packet.t_max[i] = valid[i] != 0 ? t_max[i] : -kInfinity;
+  return packet;
+}
+
+// The next float above x, which is positive and finite.
+float next_above(float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) + 1); }
+
+void intersect_eight(const RTCIntersectFunctionNArguments& args, unsigned first) {
+  RTCRayN* rays = RTCRayHitN_RayN(args.rayhit, args.N);
+  RTCHitN* found = RTCRayHitN_HitN(args.rayhit, args.N);
+  unsigned* geometry = &RTCHitN_geomID(found, args.N, first);
+  unsigned* primitive = &RTCHitN_primID(found, args.N, first);
+  RayPacket packet = load(rays, args.N, first, args.valid + first);
+  for (int i = 0; i < kLanes; ++i) {  // as in intersect_one
+    const bool comes_first = (geometry[i] != RTC_INVALID_GEOMETRY_ID) & (args.primID < primitive[i]);
+    packet.t_max[i] = (comes_first & (packet.t_max[i] > 0)) ? next_above(packet.t_max[i]) : packet.t_max[i];
+  }
+  HitPacket hits;
+  shape_of(args.geometryUserPtr, args.primID).find_hits(packet, hits);
+  float* t_max = &RTCRayN_tfar(rays, args.N, first);
+  float* u = &RTCHitN_u(found, args.N, first);
+  float* v = &RTCHitN_v(found, args.N, first);
+  float* part = &RTCHitN_Ng_x(found, args.N, first);
+  for (int i = 0; i < kLanes; ++i) {
+    if (!(hits.t[i] < kInfinity)) continue;
+    t_max[i] = hits.t[i];
+    geometry[i] = args.geomID;
+    primitive[i] = args.primID;
+    u[i] = hits.u[i];
+    v[i] = hits.v[i];
+    part[i] = std::bit_cast<float>(hits.primitive[i]);
+  }
+}
+
+void occlude_eight(const RTCOccludedFunctionNArguments& args, unsigned first) {
+  HitPacket hits;
+  shape_of(args.geometryUserPtr, args.primID)
+      .find_hits(load(args.ray, args.N, first, args.valid + first), hits);
+  float* t_max = &RTCRayN_tfar(args.ray, args.N, first);
+  for (int i = 0; i < kLanes; ++i) t_max[i] = hits.t[i] < kInfinity ? -kInfinity : t_max[i];
+}
+
+// --- Embree's entries ------------------------------------------------------------------------------------------------
+
+// Eights where more than one of them asks, else one by one.
+template <class Arguments, class One, class Eight>
+inline void for_valid_lanes(const Arguments& args, const One& one, const Eight& eight) {
+  if (args.N == 1) {
+    if (args.valid[0] != 0) one(args, 1, 0);
+    return;
+  }
+  for (unsigned first = 0; first < args.N; first += kLanes) {
+    const unsigned end = first + kLanes < args.N ? first + kLanes : args.N;
+    unsigned count = 0, last = 0;
+    for (unsigned i = first; i < end; ++i) {
+      count += args.valid[i] != 0;
+      last = args.valid[i] != 0 ? i : last;
+    }
+    if (count > 1 && end - first == kLanes) {
+      eight(args, first);
+    } else if (count > 0) {
+      for (unsigned i = first; i <= last; ++i) {
+        if (args.valid[i] != 0) one(args, args.N, i);
+      }
+    }
+  }
+}
+
+void intersect_callback(const RTCIntersectFunctionNArguments* args) {
+  for_valid_lanes(*args, intersect_one, intersect_eight);
+}
+
+void occluded_callback(const RTCOccludedFunctionNArguments* args) {
+  for_valid_lanes(*args, occlude_one, occlude_eight);
+}
+
+}  // namespace
+
+void set_callbacks(RTCGeometry geometry, FiniteShapes& finite) {
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(finite.shapes.size()));
+  rtcSetGeometryUserData(geometry, &finite);
+  rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_callback);
+  rtcSetGeometryOccludedFunction(geometry, occluded_callback);
+}
+
+}  // namespace raytracer

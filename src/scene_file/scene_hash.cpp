@@ -1,0 +1,57 @@
+#include "scene_file/scene_hash.hpp"
+
+namespace raytracer::scene_file {
+namespace {
+
+// What stands between the properties, so that no two scenes make the same sequence.
+constexpr std::uint64_t kBegin = 1, kEnd = 2, kProperty = 3;
+
+// More frames of the same film leave those that are there as they are.
+bool goes_into_pixels(const KindRow& kind) { return kind.name != "animation"; }
+
+}  // namespace
+
+void SceneHasher::begin_block(const KindRow& kind, std::string_view name, const Transform& to_world,
+                              std::uint32_t material) {
+  is_seen_ = goes_into_pixels(kind);
+  if (!is_seen_) return;
+  hasher_.add(kBegin);
+  for (const std::string_view word : {kind.name, kind.variant, name}) hasher_.add(word);
+  add(to_world);
+  hasher_.add(std::uint64_t{material});
+}
+
+void SceneHasher::add(const PropertyRow& property, const Argument& argument) {
+  if (!is_seen_) return;
+  hasher_.add(kProperty);
+  hasher_.add(property.name);
+  for (const double number : argument.numbers) hasher_.add(number);
+  hasher_.add(argument.text);
+  hasher_.add(std::uint64_t{argument.index} << 1U | (argument.is_display ? 1U : 0U));
+}
+
+void SceneHasher::end_block(const std::optional<std::uint32_t>& material) {
+  if (is_seen_) {
+    hasher_.add(kEnd);
+    hasher_.add(material ? std::uint64_t{*material} + 1 : 0);
+  }
+  is_seen_ = true;
+}
+
+SceneHash SceneHasher::finish(const RenderSettings& settings, std::string_view camera) {
+  for (const int number : {settings.width, settings.height, settings.samples, settings.bounces}) {
+    hasher_.add(static_cast<std::uint64_t>(number));
+  }
+  hasher_.add(std::uint64_t{settings.seed});
+  hasher_.add(camera);
+  return hasher_.value();
+}
+
+void SceneHasher::add(const Transform& transform) {
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) hasher_.add(transform.linear[column][row]);
+    hasher_.add(transform.translation[column]);
+  }
+}
+
+}  // namespace raytracer::scene_file

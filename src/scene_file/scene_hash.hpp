@@ -1,0 +1,34 @@
+// What an evaluated scene says, as one number: two moments with the same number are the same picture.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/hash.hpp"
+#include "raytracer/scene_file.hpp"
+#include "scene_file/schema.hpp"
+
+namespace raytracer::scene_file {
+
+/// Told of every block and every property that the builder accepts, in order. Whatever else goes into the pixels (the
+/// content of a file that is no scene's text, say) has to be told as well.
+class SceneHasher {
+ public:
+  /// `material` is what the block has around it, `to_world` likewise.
+  void begin_block(const KindRow& kind, std::string_view name, const Transform& to_world, std::uint32_t material);
+  void add(const PropertyRow& property, const Argument& argument);
+  /// `material` is the block's own.
+  void end_block(const std::optional<std::uint32_t>& material);
+
+  /// With what the caller decides.
+  SceneHash finish(const RenderSettings& settings, std::string_view camera);
+
+ private:
+  void add(const Transform& transform);
+
+  Hasher hasher_;
+  bool is_seen_ = true;  // whether the block goes into the pixels
+};
+
+}  // namespace raytracer::scene_file
