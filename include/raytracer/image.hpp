@@ -31,15 +31,10 @@ struct Image {
   }
 };
 
-/// A remark that a PNG carries: Latin-1, the keyword of at most 79 characters.
-struct PngText {
-  std::string keyword, text;
-};
-
 /// A PNG of 8-bit RGB: each value clamped to 0..255 and rounded, a half upwards; NaN is 0. The same image
 /// gives the same bytes for any number of threads. Throws Error for an image without pixels or with buffers
 /// of the wrong size (kUsage), for too little memory and for what the format can't hold (kFile).
-std::vector<std::uint8_t> encode_png(const Image& image, const std::vector<PngText>& texts = {});
+std::vector<std::uint8_t> encode_png(const Image& image);
 
 /// A little-endian colour PFM of value / 255, unclamped, bottom row first
 /// (http://netpbm.sourceforge.net/doc/pfm.html). Throws as encode_png does.

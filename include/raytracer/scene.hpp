@@ -23,11 +23,49 @@ inline constexpr std::size_t kMostRays = 16;
 /// Whether rays that are asked at once start close together and go the same way. It changes nothing but the time taken.
 enum class Coherence : std::uint8_t { kIncoherent, kCoherent };
 
+/// Finite shapes with what they are made of, stored once with the tree over them, however many places in a scene, and however
+/// many scenes, they stand in. Immutable.
+class SharedShapes {
+ public:
+  /// `material_of` holds an index into `materials` per shape. Throws Error (kUsage) for an index or a shape that does not
+  /// fit.
+  SharedShapes(std::vector<std::unique_ptr<Shape>> shapes, std::vector<std::uint32_t> material_of,
+               std::vector<Material> materials);
+  ~SharedShapes();
+  SharedShapes(const SharedShapes&) = delete;
+  SharedShapes& operator=(const SharedShapes&) = delete;
+
+  const Shape& shape(std::uint32_t index) const { return *shapes_[index]; }
+  const Material& material_of(std::uint32_t shape) const { return materials_[material_of_[shape]]; }
+  std::size_t size() const { return shapes_.size(); }
+  const Box3f& bounds() const { return bounds_; }  ///< in the shapes' own space
+  const Accelerator& accelerator() const { return *accelerator_; }
+
+ private:
+  std::vector<std::unique_ptr<Shape>> shapes_;
+  std::vector<std::uint32_t> material_of_;
+  std::vector<Material> materials_;
+  Box3f bounds_;
+  std::unique_ptr<Accelerator> accelerator_;
+};
+
+/// A place where shared shapes stand.
+struct Instance {
+  std::uint32_t shared = 0;       ///< an index into SceneDescription::shared
+  glm::mat3 linear{1.0f};         ///< from the shapes' own space to the world
+  Vector3f translation{0};
+
+  bool is_identity() const { return linear == glm::mat3(1.0f) && translation == Vector3f(0); }
+  Box3f bounds(const Box3f& own) const;  ///< a box in the world around a box in the shapes' own space
+};
+
 /// All that a Scene is made of.
 struct SceneDescription {
   std::vector<std::unique_ptr<Shape>> shapes;
   std::vector<std::uint32_t> material_of;  ///< per shape, an index into materials
   std::vector<Material> materials;
+  std::vector<std::shared_ptr<const SharedShapes>> shared;
+  std::vector<Instance> instances;
   std::vector<Light> lights;
   Camera camera;
   Color3f background{0};         ///< what a ray sees that hits nothing; 1 is white
@@ -60,15 +98,19 @@ class Scene {
   Color3f get_pixel_color(const Ray3f& ray, int bounces_left) const;
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const {
+    if (hit.instance != kNoInstance) return instance_surface_at(ray, hit);
     return description_.shapes[hit.shape]->surface_at(ray, hit);
   }
   const Material& material_of(const Hit& hit) const {
-    return description_.materials[description_.material_of[hit.shape]];
+    if (hit.instance == kNoInstance) return description_.materials[description_.material_of[hit.shape]];
+    return description_.shared[description_.instances[hit.instance].shared]->material_of(hit.shape);
   }
   const SceneDescription& description() const { return description_; }
   const Camera& camera() const { return description_.camera; }
 
  private:
+  SurfacePoint instance_surface_at(const Ray3f& ray, const Hit& hit) const;
+
   SceneDescription description_;
   std::unique_ptr<Accelerator> accelerator_;
 };

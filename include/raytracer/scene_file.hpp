@@ -93,6 +93,9 @@ struct LoadedScene {
   SceneAt scene_at;  ///< empty unless ok(); throws Error (kScene) where the scene is wrong at that time alone
   /// As scene_at; a scene_at for the same time right afterwards does not evaluate it once more.
   std::function<SceneMoment(double time)> moment_at;
+  /// One moment as a scene in JSON, which makes the same picture. Throws Error (kScene) as scene_at does, and where a
+  /// camera's shutter stays open for more than a moment.
+  std::function<std::string(double time)> json_at;
   Animation animation;
   bool depends_on_time = false;
   std::vector<Parameter> parameters;

@@ -8,6 +8,7 @@
 #include "raytracer/image.hpp"
 #include "scene_file/files.hpp"
 #include "scene_file/formatter.hpp"
+#include "scene_file/json_scene.hpp"
 
 namespace raytracer::cli {
 namespace {
@@ -15,6 +16,9 @@ namespace {
 // Returns the exit code for one file.
 int format_file(const std::string& path, const Options& options) {
   const std::string text = scene_file::read_text(path);
+  if (scene_file::is_json(path, text)) {
+    throw Error(ErrorKind::kUsage, printable(path) + " is JSON; fmt is for the text form of scenes");
+  }
   const scene_file::FormattedText formatted =
       scene_file::format_text(text, path == "-" ? "<standard input>" : path);
   for (const Diagnostic& diagnostic : formatted.diagnostics) warn(to_text(diagnostic) + '\n');

@@ -26,8 +26,8 @@ std::string key_of(const SceneHash& hash) {
 // Makes pictures of a scene, each only where it isn't there yet.
 class Renderer {
  public:
-  Renderer(const LoadedScene& scene, const Options& options, FrameSink& sink, ProgressBar& bar, RunStatistics& run,
-           Stopwatch& watch)
+  Renderer(const LoadedScene& scene, const Options& options, FrameSink& sink, ProgressBar& bar,
+           RunStatistics& run, Stopwatch& watch)
       : scene_(scene), options_(options), sink_(sink), bar_(bar), run_(run), watch_(watch) {}
 
   void make(const Shot& shot) {

@@ -14,6 +14,7 @@ int run_check(const Options& options);
 int run_help(const Options& options);
 int run_params(const Options& options);
 int run_fmt(const Options& options);
+int run_json(const Options& options);
 
 /// The page behind --help, and what packagers install.
 std::string help_page();

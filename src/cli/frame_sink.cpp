@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "cli/frames.hpp"
-#include "image/png_text.hpp"
 #include "image/write_file.hpp"
 #include "raytracer/error.hpp"
 
@@ -17,8 +16,8 @@ namespace {
 constexpr char kKeyword[] = "Scene-Hash";
 
 constexpr PictureFormat kFormats[] = {
-    {".png", encode_png},
-    {".pfm", [](const Image& image, const std::vector<PngText>&) { return encode_pfm(image); }},
+    {".png", encode_png_with},
+    {".pfm", [](const std::vector<PngText>&, const Image& image) { return encode_pfm(image); }},
 };
 
 void write_to(const std::string& path, const std::vector<std::uint8_t>& bytes) {
@@ -33,7 +32,8 @@ void write_to(const std::string& path, const std::vector<std::uint8_t>& bytes) {
 
 const PictureFormat& format_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  std::ranges::transform(ending, ending.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   if (ending.empty()) return kFormats[0];
   std::string known;
   for (const PictureFormat& format : kFormats) {
@@ -53,7 +53,7 @@ bool PictureFiles::has(int frame, const std::string& key) const {
 void PictureFiles::add(int frame, const std::string& key, const Image& image) {
   std::vector<PngText> texts;
   if (!key.empty()) texts.push_back({kKeyword, key});
-  bytes_ = format_of(path_).encode(image, texts);
+  bytes_ = format_of(path_).encode(texts, image);
   run_.encode += watch_.lap();
   repeat(frame);
 }

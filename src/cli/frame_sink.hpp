@@ -7,6 +7,7 @@
 
 #include "cli/statistics.hpp"
 #include "image/apng.hpp"
+#include "image/png_text.hpp"
 #include "raytracer/image.hpp"
 
 namespace raytracer::cli {
@@ -26,7 +27,7 @@ class FrameSink {
 /// A file's format by the ending of its name.
 struct PictureFormat {
   std::string_view ending;
-  std::vector<std::uint8_t> (*encode)(const Image& image, const std::vector<PngText>& texts);
+  std::vector<std::uint8_t> (*encode)(const std::vector<PngText>& texts, const Image& image);
 };
 /// PNG where the name has no ending. Throws Error (kUsage) for another one.
 const PictureFormat& format_of(const std::string& path);

@@ -43,9 +43,11 @@ FrameRange parse_range(std::string_view text, std::string_view whole) {
     if (take(text, 'x')) range.step = take_number(text, whole);
   }
   if (!text.empty()) refuse(whole);
-  if (range.step == 0) throw Error(ErrorKind::kUsage, fmt::format("--frames {}: a step of 0 never ends", whole));
+  if (range.step == 0)
+    throw Error(ErrorKind::kUsage, fmt::format("--frames {}: a step of 0 never ends", whole));
   if (range.last < range.first) {
-    throw Error(ErrorKind::kUsage, fmt::format("--frames {}: a range runs upwards, as {}-{}", whole, range.last, range.first));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("--frames {}: a range runs upwards, as {}-{}", whole, range.last, range.first));
   }
   return range;
 }
@@ -86,9 +88,11 @@ std::vector<int> frames_of(const FrameList& list, int count) {
       if (frame < 1) continue;
       frames.push_back(static_cast<int>(frame));
       if (frames.size() > kMostFrames) {
-        throw Error(ErrorKind::kUsage,
-                    fmt::format("the scene has {} frames, and at most {} can be rendered at once: --frames 1-1000 names some",
-                                count, kMostFrames));
+        throw Error(
+            ErrorKind::kUsage,
+            fmt::format(
+                "the scene has {} frames, and at most {} can be rendered at once: --frames 1-1000 names some",
+                count, kMostFrames));
       }
     }
   }
@@ -105,7 +109,8 @@ bool has_frame_number(const std::string& path) { return find_number(path).length
 std::string with_frame_number(const std::string& path, int frame) {
   const NumberPlace place = find_number(path);
   if (place.length == 0) return path;
-  return path.substr(0, place.begin) + fmt::format("{:0{}}", frame, place.length) + path.substr(place.begin + place.length);
+  return path.substr(0, place.begin) + fmt::format("{:0{}}", frame, place.length) +
+         path.substr(place.begin + place.length);
 }
 
 }  // namespace raytracer::cli

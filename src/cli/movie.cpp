@@ -12,7 +12,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -24,21 +23,21 @@ namespace raytracer::cli {
 /// How ffmpeg makes a kind of film.
 struct FilmFormat {
   std::string_view ending, muxer;
-  bool has_even_size;  // its pixels share colour in blocks of 2 x 2
-  std::span<const char* const> arguments, colors;
+  bool has_even_size;                  // its pixels share colour in blocks of 2 x 2
+  std::string_view arguments, colors;  // words with a blank between
 };
 
 namespace {
 
-constexpr const char* kMp4[] = {"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart"};
-constexpr const char* kWebm[] = {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1"};
+constexpr std::string_view kMp4 = "-c:v libx264 -preset medium -crf 18 -movflags +faststart";
+constexpr std::string_view kWebm = "-c:v libvpx-vp9 -crf 24 -b:v 0 -row-mt 1";
 // The colours that the whole film needs most, then every frame in them.
-constexpr const char* kGif[] = {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse", "-loop",
-                                "0"};
+constexpr std::string_view kGif =
+    "-filter_complex split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse -loop 0";
 // Converted as HDTV has it, and told so: players guess differently where nothing is said.
-constexpr const char* kVideoColors[] = {
-    "-vf", "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p",
-    "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"};
+constexpr std::string_view kVideoColors =
+    "-vf scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p "
+    "-color_range tv -colorspace bt709 -color_primaries bt709 -color_trc bt709";
 constexpr FilmFormat kFormats[] = {
     {".mp4", "mp4", true, kMp4, kVideoColors},
     {".webm", "webm", false, kWebm, kVideoColors},
@@ -47,7 +46,8 @@ constexpr FilmFormat kFormats[] = {
 
 const FilmFormat* find_format(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  std::ranges::transform(ending, ending.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   const auto found = std::ranges::find(kFormats, ending, &FilmFormat::ending);
   return found == std::end(kFormats) ? nullptr : found;
 }
@@ -61,10 +61,11 @@ std::string find_ffmpeg(const std::string& film) {
     if (colon > 0 && ::access(program.c_str(), X_OK) == 0) return program;
     folders.remove_prefix(std::min(colon + 1, folders.size()));
   }
-  throw Error(ErrorKind::kFile, fmt::format("'{}' needs ffmpeg, which is not installed: apt install ffmpeg; "
-                                            "without it, -o shot.####.png makes frames and --frames all -o film.png "
-                                            "a PNG that moves",
-                                            film));
+  throw Error(ErrorKind::kFile,
+              fmt::format("'{}' needs ffmpeg, which is not installed: apt install ffmpeg; "
+                          "without it, -o shot.####.png makes frames and --frames all -o film.png "
+                          "a PNG that moves",
+                          film));
 }
 
 [[noreturn]] void refuse(const std::string& film, int error) {
@@ -91,6 +92,14 @@ std::string find_ffmpeg(const std::string& film) {
 
 void put_channel(const std::vector<float>& values, std::size_t start, std::size_t width, std::uint8_t* out) {
   for (std::size_t x = 0; x < width; ++x) out[3 * x] = to_byte(values[start + x]);
+}
+
+void add_words(std::vector<std::string>& words, std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t blank = std::min(text.find(' '), text.size());
+    words.emplace_back(text.substr(0, blank));
+    text.remove_prefix(std::min(blank + 1, text.size()));
+  }
 }
 
 // Three bytes a pixel; the last column and row once more where the format wants even numbers.
@@ -136,10 +145,13 @@ void Movie::add(int, const std::string&, const Image& image) {
     height_ = image.height;
     start();
   } else if (image.width != width_ || image.height != height_) {
-    throw Error(ErrorKind::kUsage, fmt::format("a film's pictures have one size: this one is {}x{}, the first is {}x{}",
-                                               image.width, image.height, width_, height_));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("a film's pictures have one size: this one is {}x{}, the first is {}x{}",
+                            image.width, image.height, width_, height_));
   }
-  const auto even = [&](int size) { return static_cast<std::size_t>(format_.has_even_size ? size + size % 2 : size); };
+  const auto even = [&](int size) {
+    return static_cast<std::size_t>(format_.has_even_size ? size + size % 2 : size);
+  };
   bytes_ = rgb_of(image, even(width_), even(height_));
   repeat(0);
 }
@@ -163,14 +175,21 @@ void Movie::finish() {
   run_.write += watch_.lap();
 }
 
-void Movie::start() {
+std::vector<std::string> Movie::command_line() const {
   const int padding = format_.has_even_size ? 1 : 0;
-  const std::string size = fmt::format("{}x{}", width_ + width_ % 2 * padding, height_ + height_ % 2 * padding);
-  std::vector<std::string> words = {program_, "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo",
-                                    "-pixel_format", "rgb24", "-video_size", size, "-framerate", fmt::format("{}", fps_),
-                                    "-i", "pipe:0"};
-  for (const auto more : {format_.arguments, format_.colors}) words.insert(words.end(), more.begin(), more.end());
-  words.insert(words.end(), {"-f", std::string(format_.muxer), "file:" + file_.path()});
+  std::vector<std::string> words = {program_};
+  add_words(words, "-hide_banner -loglevel error -y -f rawvideo -pixel_format rgb24");
+  add_words(words, fmt::format("-video_size {}x{} -framerate {} -i pipe:0", width_ + width_ % 2 * padding,
+                               height_ + height_ % 2 * padding, fps_));
+  add_words(words, format_.arguments);
+  add_words(words, format_.colors);
+  add_words(words, fmt::format("-f {}", format_.muxer));
+  words.push_back("file:" + file_.path());
+  return words;
+}
+
+void Movie::start() {
+  std::vector<std::string> words = command_line();
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -190,7 +209,8 @@ void Movie::start() {
 void Movie::fail(int status) {
   const std::string how = WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
                                               : fmt::format("exit code {}", WEXITSTATUS(status));
-  throw Error(ErrorKind::kFile, fmt::format("ffmpeg could not make '{}' ({}):\n{}", path_, how, last_words()));
+  throw Error(ErrorKind::kFile,
+              fmt::format("ffmpeg could not make '{}' ({}):\n{}", path_, how, last_words()));
 }
 
 void Movie::close_pipe() {

@@ -31,6 +31,7 @@ class Movie : public FrameSink {
   void finish() override;
 
  private:
+  std::vector<std::string> command_line() const;
   void start();
   [[noreturn]] void fail(int status);
   void close_pipe();

@@ -83,10 +83,10 @@ void set_limit(Options& options, const std::string& value) {
 }
 
 constexpr std::uint8_t kLoading = kRender | kCheck | kParams;
-constexpr std::uint8_t kAll = kRender | kCheck | kHelp | kParams | kFmt;
+constexpr std::uint8_t kAll = kRender | kCheck | kHelp | kParams | kFmt | kJson;
 
 constexpr OptionRow kOptions[] = {
-    {"--output", "-o", "FILE", kRender, false, "picture .png .pfm, film .mp4 .webm .gif; - is standard output",
+    {"--output", "-o", "FILE", kRender | kJson, false, "picture .png .pfm, film .mp4 .webm .gif; - is stdout",
      [](Options& o, const std::string& v) { o.output = v; }},
     {"--size", "", "WxH", kLoading, false, "width and height in pixels", set_size},
     {"--samples", "", "N", kLoading, false, "rays per pixel",
@@ -97,13 +97,13 @@ constexpr OptionRow kOptions[] = {
      [](Options& o, const std::string& v) { o.load.bounces = whole_number<int>("--bounces", v, 0, 1000); }},
     {"--camera", "", "NAME", kLoading, false, "the camera to use, where the scene has several",
      [](Options& o, const std::string& v) { o.load.camera = v; }},
-    {"--allow-path", "", "DIR", kLoading, false, "a further folder that the scene may read from",
+    {"--allow-path", "", "DIR", kLoading | kJson, false, "a further folder that the scene may read from",
      [](Options& o, const std::string& v) { o.load.allowed_folders.push_back(v); }, true},
-    {"--set", "", "NAME=VALUE", kLoading, false, "another value for a top-level let", add_setting, true},
-    {"--limit", "", "NAME=N", kLoading, false, "raises a limit, as nesting=1000", set_limit, true},
+    {"--set", "", "NAME=VALUE", kLoading | kJson, false, "another value for a top-level let", add_setting, true},
+    {"--limit", "", "NAME=N", kLoading | kJson, false, "raises a limit, as nesting=1000", set_limit, true},
     {"--frames", "", "LIST", kRender, false, "all, 3, 1-240, 1-240x2 or 3,7: frames of the animation",
      [](Options& o, const std::string& v) { o.frames = parse_frame_list(v); }},
-    {"--time-at", "", "SECONDS", kRender, false, "the moment to show, instead of 0", set_time},
+    {"--time-at", "", "SECONDS", kRender | kJson, false, "the moment to show, instead of 0", set_time},
     {"--resume", "", "", kRender, false, "keeps frames of an earlier run that are still right",
      [](Options& o, const std::string&) { o.resume = true; }},
     {"--threads", "", "N", kRender, false, "processors to use; the picture is the same for any N",
@@ -133,6 +133,7 @@ constexpr CommandRow kCommands[] = {
     {"render", kRender, "SCENE", "makes a picture; the word may be left out", run_render},
     {"check", kCheck, "SCENE", "looks for mistakes and renders nothing", run_check},
     {"params", kParams, "SCENE", "lists what --set can change", run_params},
+    {"json", kJson, "SCENE", "writes one moment of the scene, evaluated, as JSON", run_json},
     {"fmt", kFmt, "SCENE", "prints the scene's text in canonical form", run_fmt, 1'000'000},
     {"help", kHelp, "[WORD]", "lists the words of a scene, or explains one", run_help, 2},
 };

@@ -32,7 +32,7 @@ struct Options {
   std::string completions_for;  ///< a shell
 };
 
-enum CommandBit : std::uint8_t { kRender = 1, kCheck = 2, kHelp = 4, kParams = 8, kFmt = 16 };
+enum CommandBit : std::uint8_t { kRender = 1, kCheck = 2, kHelp = 4, kParams = 8, kFmt = 16, kJson = 32 };
 
 struct CommandRow {
   std::string_view name;

@@ -41,11 +41,13 @@ bool ProgressBar::on_progress(std::uint64_t done, std::uint64_t total) {
     drawn_ = true;
     set_line_in_use(true);
     const double share =
-        (static_cast<double>(begun_ - 1) + static_cast<double>(done) / static_cast<double>(total)) / static_cast<double>(pictures_);
+        (static_cast<double>(begun_ - 1) + static_cast<double>(done) / static_cast<double>(total)) /
+        static_cast<double>(pictures_);
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const auto filled = static_cast<std::size_t>(share * kBarWidth);
-    warn(fmt::format("{}[{:<{}}] {:3.0f} %  {} left", kClearLine, std::string(filled, '#'), kBarWidth,
-                     100 * share, time_text(elapsed * (1 - share) / share)));
+    warn(fmt::format("{}[{:<{}}] {:3.0f} %  {} left{}", kClearLine, std::string(filled, '#'), kBarWidth,
+                     100 * share, time_text(elapsed * (1 - share) / share),
+                     frame_ > 0 ? fmt::format(", frame {}", frame_) : ""));
   }
   return true;
 }

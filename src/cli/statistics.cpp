@@ -28,12 +28,13 @@ double peak_memory_in_megabytes() {
 std::string summary(const std::string& path, const RunStatistics& run) {
   std::string what = fmt::format("{} x {}", run.width, run.height);
   if (run.pictures > 1 || run.kept > 0) {
-    const std::string kept = run.kept > 0 ? fmt::format(", {} of them there already", run.kept) : std::string();
+    const std::string kept =
+        run.kept > 0 ? fmt::format(", {} of them there already", run.kept) : std::string();
     what = fmt::format("{} frames{}{}", run.pictures, run.width > 0 ? " of " + what : std::string(), kept);
   }
-  return fmt::format("{}: {} in {:.2f} s, {:.1f} million rays at {:.1f} million/s, {:.0f} MB\n", printable(path), what,
-                     run.total(), static_cast<double>(run.rays) / 1e6, run.million_rays_per_second(),
-                     peak_memory_in_megabytes());
+  return fmt::format("{}: {} in {:.2f} s, {:.1f} million rays at {:.1f} million/s, {:.0f} MB\n",
+                     printable(path), what, run.total(), static_cast<double>(run.rays) / 1e6,
+                     run.million_rays_per_second(), peak_memory_in_megabytes());
 }
 
 std::string to_json(const RunStatistics& run) {

@@ -24,16 +24,18 @@ std::string output_path(const Options& options) {
 }
 
 void check_time_and_resume(const Target& target, const Options& options) {
-  if (options.time_at && options.frames) usage_error("--time-at names one moment, --frames names frames: say either");
+  if (options.time_at && options.frames)
+    usage_error("--time-at names one moment, --frames names frames: say either");
   if (options.time_at && target.wants_frames) {
     usage_error(fmt::format("'{}' asks for frames, --time-at for one moment: say either", target.path));
   }
   if (!options.resume) return;
   if (!target.wants_frames) usage_error("--resume goes on with frames: -o shot.####.png");
   if (target.is_film || target.path == "-" || !is_png(target.path)) {
-    usage_error(fmt::format("--resume can't go on with '{}': only frames as PNG files tell what they show, "
-                            "as -o shot.####.png makes them",
-                            target.path));
+    usage_error(
+        fmt::format("--resume can't go on with '{}': only frames as PNG files tell what they show, "
+                    "as -o shot.####.png makes them",
+                    target.path));
   }
 }
 
@@ -53,8 +55,9 @@ Target target_of(const Options& options) {
 std::vector<Shot> shots_of(const Target& target, const Options& options, const LoadedScene& scene) {
   if (!target.wants_frames) return {{options.time_at.value_or(0), 0}};
   if (scene.animation.duration == 0) {
-    usage_error(fmt::format("{} asks for frames, and the scene does not say how long it lasts: animation {{ duration 4 }}",
-                            options.frames ? "--frames" : fmt::format("'{}'", target.path)));
+    usage_error(fmt::format(
+        "{} asks for frames, and the scene does not say how long it lasts: animation {{ duration 4 }}",
+        options.frames ? "--frames" : fmt::format("'{}'", target.path)));
   }
   std::vector<Shot> shots;
   const FrameList list = options.frames.value_or(parse_frame_list("all"));
@@ -63,12 +66,14 @@ std::vector<Shot> shots_of(const Target& target, const Options& options, const L
   }
   const bool has_place = shots.size() == 1 || target.is_numbered || target.is_film;
   if (!has_place && !is_png(target.path)) {
-    usage_error(fmt::format("'{}' can't hold {} frames: -o shot.####.pfm makes a file of each, -o film.mp4 a film",
-                            target.path, shots.size()));
+    usage_error(
+        fmt::format("'{}' can't hold {} frames: -o shot.####.pfm makes a file of each, -o film.mp4 a film",
+                    target.path, shots.size()));
   }
   if (!has_place && options.resume) {
-    usage_error(fmt::format("--resume can't go on with '{}', one file of {} frames: -o shot.####.png makes a file of each",
-                            target.path, shots.size()));
+    usage_error(fmt::format(
+        "--resume can't go on with '{}', one file of {} frames: -o shot.####.png makes a file of each",
+        target.path, shots.size()));
   }
   return shots;
 }
@@ -84,13 +89,14 @@ void check_output(const std::string& path, const std::vector<std::string>& files
   for (const std::string& read : files_read) {
     std::error_code none;
     if (fs::equivalent(path, read, none)) {
-      throw Error(ErrorKind::kFile, fmt::format("'{}' is a file that the scene reads: it is not overwritten", path));
+      throw Error(ErrorKind::kFile,
+                  fmt::format("'{}' is a file that the scene reads: it is not overwritten", path));
     }
   }
 }
 
-std::unique_ptr<FrameSink> open_target(const Target& target, const std::vector<Shot>& shots, const LoadedScene& scene,
-                                       RunStatistics& run, Stopwatch& watch) {
+std::unique_ptr<FrameSink> open_target(const Target& target, const std::vector<Shot>& shots,
+                                       const LoadedScene& scene, RunStatistics& run, Stopwatch& watch) {
   if (target.is_numbered) {
     for (const Shot& shot : shots) check_output(with_frame_number(target.path, shot.frame), scene.files_read);
   } else {
@@ -98,7 +104,8 @@ std::unique_ptr<FrameSink> open_target(const Target& target, const std::vector<S
   }
   const double fps = scene.animation.fps;
   if (target.is_film) return std::make_unique<Movie>(target.path, fps, run, watch);
-  if (!target.is_numbered && shots.size() > 1) return std::make_unique<MovingPng>(target.path, fps, run, watch);
+  if (!target.is_numbered && shots.size() > 1)
+    return std::make_unique<MovingPng>(target.path, fps, run, watch);
   return std::make_unique<PictureFiles>(target.path, run, watch);
 }
 

@@ -17,24 +17,24 @@ struct Shot {
 
 /// Where pictures go, as the command line has it.
 struct Target {
-  std::string path;         ///< "-" is standard output
-  bool is_film = false;     ///< ffmpeg makes it
-  bool is_numbered = false; ///< the frame's number is in the name
+  std::string path;          ///< "-" is standard output
+  bool is_film = false;      ///< ffmpeg makes it
+  bool is_numbered = false;  ///< the frame's number is in the name
   bool wants_frames = false;
 };
 
 /// Throws Error (kUsage) for whatever is wrong with it whatever the scene may be.
 Target target_of(const Options& options);
 
-/// At least one, in the order in which they are made. Throws Error (kUsage) where the scene doesn't have them, or the
-/// target can't hold them.
+/// At least one, in the order in which they are made. Throws Error (kUsage) where the scene doesn't have
+/// them, or the target can't hold them.
 std::vector<Shot> shots_of(const Target& target, const Options& options, const LoadedScene& scene);
 
 /// Everything that can be known to go wrong with a file's place. Throws Error.
 void check_output(const std::string& path, const std::vector<std::string>& files_read);
 
 /// Opens the target, after checking all of it. Throws Error.
-std::unique_ptr<FrameSink> open_target(const Target& target, const std::vector<Shot>& shots, const LoadedScene& scene,
-                                       RunStatistics& run, Stopwatch& watch);
+std::unique_ptr<FrameSink> open_target(const Target& target, const std::vector<Shot>& shots,
+                                       const LoadedScene& scene, RunStatistics& run, Stopwatch& watch);
 
 }  // namespace raytracer::cli

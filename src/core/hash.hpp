@@ -17,8 +17,8 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-/// 128 bits about a sequence of words: two sequences have the same only by a chance that may be neglected. No defence
-/// against anyone who looks for such a pair.
+/// 128 bits about a sequence of words: two sequences have the same only by a chance that may be neglected. No
+/// defence against anyone who looks for such a pair.
 class Hasher {
  public:
   void add(std::uint64_t word) {

@@ -18,12 +18,13 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t kChunkHead = 8;      // length and type
+constexpr std::size_t kChunkHead = 8;        // length and type
 constexpr std::size_t kDelayInControl = 20;  // where in an fcTL's content the delay stands
 constexpr std::uint32_t kLargestDelay = std::numeric_limits<std::uint16_t>::max();
 
 void put(Bytes& out, std::uint32_t number, int bytes) {
-  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) out.push_back(static_cast<std::uint8_t>(number >> shift));
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
+    out.push_back(static_cast<std::uint8_t>(number >> shift));
 }
 
 void overwrite(Bytes& file, std::size_t at, const Bytes& with) {
@@ -37,8 +38,8 @@ void renew_checksum(Bytes& file, std::size_t chunk_at, std::size_t content_size)
   overwrite(file, chunk_at + kChunkHead + content_size, checksum);
 }
 
-// The fraction nearest to x whose halves fit 16 bits, by its continued fraction; the simplest one that is equal to twelve
-// digits where there is one, so that 1/24 stays 1/24.
+// The fraction nearest to x whose halves fit 16 bits, by its continued fraction; the simplest one that is
+// equal to twelve digits where there is one, so that 1/24 stays 1/24.
 std::pair<std::uint16_t, std::uint16_t> fraction_of(double x) {
   std::uint32_t last[2] = {0, 1}, best[2] = {1, 0};  // numerator and denominator
   double rest = x;
@@ -46,7 +47,8 @@ std::pair<std::uint16_t, std::uint16_t> fraction_of(double x) {
     const double whole = std::floor(rest);
     if (whole > kLargestDelay) break;
     const auto n = static_cast<std::uint32_t>(whole);
-    const std::uint64_t next[2] = {std::uint64_t{n} * best[0] + last[0], std::uint64_t{n} * best[1] + last[1]};
+    const std::uint64_t next[2] = {std::uint64_t{n} * best[0] + last[0],
+                                   std::uint64_t{n} * best[1] + last[1]};
     if (next[0] > kLargestDelay || next[1] > kLargestDelay) break;
     for (const int half : {0, 1}) {
       last[half] = std::exchange(best[half], static_cast<std::uint32_t>(next[half]));
@@ -63,8 +65,9 @@ Apng::Apng(double fps) { std::tie(delay_numerator_, delay_denominator_) = fracti
 
 void Apng::add(const Image& image) {
   if (frames_ > 0 && (image.width != width_ || image.height != height_)) {
-    throw Error(ErrorKind::kUsage, fmt::format("a film's pictures have one size: this one is {}x{}, the first is {}x{}",
-                                               image.width, image.height, width_, height_));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("a film's pictures have one size: this one is {}x{}, the first is {}x{}",
+                            image.width, image.height, width_, height_));
   }
   encode_checked(image, [&] {
     pixels_ = compress_pixels(image);
@@ -102,8 +105,9 @@ void Apng::begin_file() {
   put(header, static_cast<std::uint32_t>(height_), 4);
   header.insert(header.end(), {8, 2, 0, 0, 0});  // 8 bits of RGB, the standard methods, not interlaced
   append_chunk("IHDR", header);
-  for (const std::string_view text : {std::string_view("Software\0raytracer", 18),
-                                      std::string_view("Version\0" RAYTRACER_VERSION, 7 + sizeof RAYTRACER_VERSION)}) {
+  for (const std::string_view text :
+       {std::string_view("Software\0raytracer", 18),
+        std::string_view("Version\0" RAYTRACER_VERSION, 7 + sizeof RAYTRACER_VERSION)}) {
     append_chunk("tEXt", {text.begin(), text.end()});
   }
   animation_at_ = file_.size();

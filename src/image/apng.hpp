@@ -1,4 +1,5 @@
-// Pictures that move, as one PNG: https://wiki.mozilla.org/APNG_Specification, since 2025 part of PNG's third edition.
+// Pictures that move, as one PNG: https://wiki.mozilla.org/APNG_Specification, since 2025 part of PNG's third
+// edition.
 #pragma once
 
 #include <cstddef>
@@ -36,10 +37,10 @@ class Apng {
   std::uint16_t delay_numerator_ = 1, delay_denominator_ = 1;  // seconds per frame
   int width_ = 0, height_ = 0;
   Bytes file_;
-  std::vector<ZlibPiece> pixels_;  // of the latest frame
-  std::uint32_t frames_ = 0;       // those that have pixels of their own
-  std::uint32_t sequence_ = 0;     // the next fcTL's or fdAT's number
-  std::uint32_t shown_for_ = 0;    // how many frames long the latest is shown
+  std::vector<ZlibPiece> pixels_;                  // of the latest frame
+  std::uint32_t frames_ = 0;                       // those that have pixels of their own
+  std::uint32_t sequence_ = 0;                     // the next fcTL's or fdAT's number
+  std::uint32_t shown_for_ = 0;                    // how many frames long the latest is shown
   std::size_t animation_at_ = 0, control_at_ = 0;  // where in the file acTL and the latest fcTL begin
 };
 

@@ -9,6 +9,7 @@
 
 #include "image/encode.hpp"
 #include "image/png_pixels.hpp"
+#include "image/png_text.hpp"
 #include "raytracer/error.hpp"
 #include "raytracer/image.hpp"
 
@@ -110,8 +111,10 @@ std::vector<std::uint8_t> png_of(const Image& image, std::vector<PngText> texts)
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Image& image, const std::vector<PngText>& texts) {
+std::vector<std::uint8_t> encode_png_with(const std::vector<PngText>& texts, const Image& image) {
   return encode_checked(image, [&] { return png_of(image, texts); });
 }
+
+std::vector<std::uint8_t> encode_png(const Image& image) { return encode_png_with({}, image); }
 
 }  // namespace raytracer

@@ -47,10 +47,11 @@ std::optional<std::string> read_png_text(const std::string& path, std::string_vi
     const std::string content = take(file, size), checksum = take(file, 4);
     if (checksum.size() < 4) return std::nullopt;
     const std::string summed = type + content;
-    const bool is_sound =
-        crc32_of(reinterpret_cast<const std::uint8_t*>(summed.data()), summed.size()) == number_at(checksum, 0);
+    const bool is_sound = crc32_of(reinterpret_cast<const std::uint8_t*>(summed.data()), summed.size()) ==
+                          number_at(checksum, 0);
     const std::size_t name_size = content.find('\0');
-    if (type == "tEXt" && is_sound && name_size != std::string::npos && content.substr(0, name_size) == keyword) {
+    if (type == "tEXt" && is_sound && name_size != std::string::npos &&
+        content.substr(0, name_size) == keyword) {
       return content.substr(name_size + 1);
     }
   }

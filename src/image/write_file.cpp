@@ -205,7 +205,10 @@ void write_file(const std::string& path, const std::vector<std::uint8_t>& bytes)
 class FileInProgress::Place {
  public:
   explicit Place(const std::string& asked)
-      : asked_(asked), place_(find_destination(asked)), folder_(open_folder(place_.folder)), name_(folder_.get()) {
+      : asked_(asked),
+        place_(find_destination(asked)),
+        folder_(open_folder(place_.folder)),
+        name_(folder_.get()) {
     if (place_.kind != Destination::Kind::kNew && place_.kind != Destination::Kind::kFile) {
       throw Error(ErrorKind::kFile, fmt::format("can't write '{}': it is no regular file", asked));
     }

@@ -69,20 +69,35 @@ RTCDevice device() {
   return shared;
 }
 
-RTCScene build_tree(FiniteShapes& finite) {
+// In a tree the scene's own shapes are geometry 0, and instance i is geometry i + 1.
+constexpr unsigned kOwnShapes = 0;
+
+void attach_shapes(RTCScene scene, FiniteShapes& finite) {
+  if (finite.shapes.empty()) return;
   RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
   set_callbacks(geometry, finite);
   rtcCommitGeometry(geometry);
-  RTCScene scene = rtcNewScene(device());
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  rtcAttachGeometry(scene, geometry);
+  rtcAttachGeometryByID(scene, geometry, kOwnShapes);
   rtcReleaseGeometry(geometry);
+}
+
+void attach_instance(RTCScene scene, RTCScene shared, const Instance& instance, unsigned id) {
+  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, shared);
+  const glm::mat3& m = instance.linear;
+  const float columns[12] = {m[0].x, m[0].y, m[0].z, m[1].x, m[1].y, m[1].z, m[2].x, m[2].y, m[2].z,
+                             instance.translation.x, instance.translation.y, instance.translation.z};
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+void commit(RTCScene scene, std::size_t things) {
   rtcCommitScene(scene);
   if (rtcGetDeviceError(device()) != RTC_ERROR_NONE) {
-    rtcReleaseScene(scene);
-    throw Error(ErrorKind::kFile, fmt::format("no memory for the tree over {} shapes", finite.shapes.size()));
+    throw Error(ErrorKind::kFile, fmt::format("no memory for the tree over {} shapes", things));
   }
-  return scene;
 }
 
 }  // namespace
@@ -104,15 +119,29 @@ struct Accelerator::Tree {
     return true;
   }
 
+  // A hit in the tree, as Embree tells it.
+  struct Found {
+    float t;
+    unsigned instance_id, primitive;
+    float part, u, v;
+  };
+
   // The nearer of what the tree found and of `hit`, which the endless shapes have found if `has_hit`.
-  bool choose(float t, unsigned primitive, float part, float u, float v, bool has_hit, Hit& hit) const {
-    const std::uint32_t shape = finite.indices[primitive];
-    if (!has_hit || t < hit.t || shape < hit.shape) hit = {t, shape, std::bit_cast<std::uint32_t>(part), u, v};
+  bool choose(const Found& found, bool has_hit, Hit& hit) const {
+    const bool is_own = found.instance_id == RTC_INVALID_GEOMETRY_ID;
+    // Shared shapes are all finite: there a primitive is a shape.
+    const std::uint32_t shape = is_own ? finite.indices[found.primitive] : found.primitive;
+    if (has_hit && found.t >= hit.t && (!is_own || shape > hit.shape)) return true;
+    hit = {found.t, shape, std::bit_cast<std::uint32_t>(found.part), found.u, found.v,
+           is_own ? kNoInstance : found.instance_id - 1};
     return true;
   }
 };
 
-Accelerator::Accelerator(std::span<const std::unique_ptr<Shape>> shapes) : tree_(std::make_unique<Tree>()) {
+Accelerator::Accelerator(std::span<const std::unique_ptr<Shape>> shapes,
+                         std::span<const std::shared_ptr<const SharedShapes>> shared,
+                         std::span<const Instance> instances)
+    : tree_(std::make_unique<Tree>()) {
   std::vector<const Shape*> endless;
   std::vector<std::uint32_t> endless_indices;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
@@ -121,7 +150,16 @@ Accelerator::Accelerator(std::span<const std::unique_ptr<Shape>> shapes) : tree_
     (finite ? tree_->finite.indices : endless_indices).push_back(i);
   }
   tree_->endless = ShapeList(std::move(endless), std::move(endless_indices));
-  if (!tree_->finite.shapes.empty()) tree_->scene = build_tree(tree_->finite);
+  const std::size_t things = tree_->finite.shapes.size() + instances.size();
+  if (things == 0) return;
+  tree_->scene = rtcNewScene(device());
+  rtcSetSceneFlags(tree_->scene, RTC_SCENE_FLAG_ROBUST);
+  attach_shapes(tree_->scene, tree_->finite);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    RTCScene below = shared[instances[i].shared]->accelerator().tree_->scene;
+    if (below != nullptr) attach_instance(tree_->scene, below, instances[i], static_cast<unsigned>(i) + 1);
+  }
+  commit(tree_->scene, things);
 }
 
 Accelerator::~Accelerator() = default;
@@ -133,10 +171,12 @@ bool Accelerator::is_hit(const Ray3f& ray, Hit& hit) const {
   RTCRayHit query;
   query.ray = to_embree(rest);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embree::intersect(tree_->scene, query);
   const RTCHit& found = query.hit;
   if (found.geomID == RTC_INVALID_GEOMETRY_ID) return hits_endless;
-  return tree_->choose(query.ray.tfar, found.primID, found.Ng_x, found.u, found.v, hits_endless, hit);
+  return tree_->choose({query.ray.tfar, found.instID[0], found.primID, found.Ng_x, found.u, found.v}, hits_endless,
+                       hit);
 }
 
 bool Accelerator::is_occluded(const Ray3f& ray) const {
@@ -156,6 +196,7 @@ std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hi
     answer |= std::uint32_t{tree_->is_endless_hit(rest, hits[i])} << i;
     set_lane(query.ray, i, rest);
     query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   if (tree_->scene == nullptr) return answer;
   embree::intersect(ValidLanes(query.ray, rays.size()).lane, tree_->scene, query, coherence);
@@ -163,7 +204,8 @@ std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hi
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     const bool hits_endless = (answer >> i & 1U) != 0;
-    tree_->choose(query.ray.tfar[i], found.primID[i], found.Ng_x[i], found.u[i], found.v[i], hits_endless, hits[i]);
+    tree_->choose({query.ray.tfar[i], found.instID[0][i], found.primID[i], found.Ng_x[i], found.u[i], found.v[i]},
+                  hits_endless, hits[i]);
     answer |= 1U << i;
   }
   return answer;

@@ -8,15 +8,18 @@
 
 namespace raytracer {
 
-/// A bounding volume hierarchy over finite shapes, with the endless ones beside it. The shapes must outlive it.
+/// A bounding volume hierarchy over finite shapes and over the places of shared ones, with endless shapes beside it. All of
+/// them must outlive it.
 class Accelerator {
  public:
-  explicit Accelerator(std::span<const std::unique_ptr<Shape>> shapes);
+  explicit Accelerator(std::span<const std::unique_ptr<Shape>> shapes,
+                       std::span<const std::shared_ptr<const SharedShapes>> shared = {},
+                       std::span<const Instance> instances = {});
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
 
-  /// The nearest hit; among equal t that of the lower shape.
+  /// The nearest hit; among equal t that of the lower shape, and shapes of the scene itself come before instances.
   bool is_hit(const Ray3f& ray, Hit& hit) const;
   bool is_occluded(const Ray3f& ray) const;
 

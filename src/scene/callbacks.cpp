@@ -20,6 +20,14 @@ void bounds_callback(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
 }
 
+// Whether the shape that is asked comes before the one that was hit: by instance, the scene's own shapes first, then by
+// shape.
+bool comes_before(const RTCIntersectFunctionNArguments& args, unsigned hit_instance, unsigned hit_primitive) {
+  // RTC_INVALID_GEOMETRY_ID, no instance, wraps to 0.
+  const unsigned asked = args.context->instID[0] + 1, hit = hit_instance + 1;
+  return asked < hit || (asked == hit && args.primID < hit_primitive);
+}
+
 // --- one ray ---------------------------------------------------------------------------------------------------------
 
 // A ray among the `n` of a packet that lie in memory one coordinate after the other. n = 1 is a plain RTCRay.
@@ -36,12 +44,14 @@ inline void intersect_one(const RTCIntersectFunctionNArguments& args, unsigned n
   // A hit just as far as the nearest one so far still counts if its shape comes first.
   const bool has_hit = RTCHitN_geomID(hits, n, i) != RTC_INVALID_GEOMETRY_ID;
   Ray3f ray = ray_in(rays, n, i);
-  if (has_hit && args.primID < RTCHitN_primID(hits, n, i)) ray.t_max = std::nextafter(ray.t_max, kInfinity);
+  const bool comes_first = has_hit && comes_before(args, RTCHitN_instID(hits, n, i, 0), RTCHitN_primID(hits, n, i));
+  if (comes_first) ray.t_max = std::nextafter(ray.t_max, kInfinity);
   Hit hit;
   if (!shape_of(args.geometryUserPtr, args.primID).is_hit(ray, hit)) return;
   RTCRayN_tfar(rays, n, i) = hit.t;
   RTCHitN_geomID(hits, n, i) = args.geomID;
   RTCHitN_primID(hits, n, i) = args.primID;
+  RTCHitN_instID(hits, n, i, 0) = args.context->instID[0];
   RTCHitN_u(hits, n, i) = hit.u;
   RTCHitN_v(hits, n, i) = hit.v;
   RTCHitN_Ng_x(hits, n, i) = std::bit_cast<float>(hit.primitive);
@@ -81,9 +91,11 @@ void intersect_eight(const RTCIntersectFunctionNArguments& args, unsigned first)
   RTCHitN* found = RTCRayHitN_HitN(args.rayhit, args.N);
   unsigned* geometry = &RTCHitN_geomID(found, args.N, first);
   unsigned* primitive = &RTCHitN_primID(found, args.N, first);
+  unsigned* instance = &RTCHitN_instID(found, args.N, first, 0);
   RayPacket packet = load(rays, args.N, first, args.valid + first);
   for (int i = 0; i < kLanes; ++i) {  // as in intersect_one
-    const bool comes_first = (geometry[i] != RTC_INVALID_GEOMETRY_ID) & (args.primID < primitive[i]);
+    const bool comes_first =
+        (geometry[i] != RTC_INVALID_GEOMETRY_ID) & comes_before(args, instance[i], primitive[i]);
     packet.t_max[i] = (comes_first & (packet.t_max[i] > 0)) ? next_above(packet.t_max[i]) : packet.t_max[i];
   }
   HitPacket hits;
@@ -97,6 +109,7 @@ void intersect_eight(const RTCIntersectFunctionNArguments& args, unsigned first)
     t_max[i] = hits.t[i];
     geometry[i] = args.geomID;
     primitive[i] = args.primID;
+    instance[i] = args.context->instID[0];
     u[i] = hits.u[i];
     v[i] = hits.v[i];
     part[i] = std::bit_cast<float>(hits.primitive[i]);

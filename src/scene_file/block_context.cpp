@@ -6,6 +6,7 @@
 #include "core/suggest.hpp"
 #include "scene_file/arguments.hpp"
 #include "scene_file/builder.hpp"
+#include "scene_file/item_cutter.hpp"
 #include "scene_file/placing.hpp"
 
 namespace raytracer::scene_file {
@@ -13,12 +14,6 @@ namespace {
 
 // A transform word: the builder itself knows what to do with it.
 bool is_placing(const PropertyRow& row) { return row.store == nullptr && row.is_placing; }
-
-bool is_misspelt_number(std::string_view word) {
-  std::string lower(word);
-  std::ranges::transform(lower, lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return lower == "nan" || lower == "inf" || lower == "infinity";
-}
 
 }  // namespace
 
@@ -128,14 +123,23 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
                                       builder_.diagnostics_);
   if (!argument) return false;
   depends_on_time_ = depends_on_time_ || argument->depends_on_time;
-  if (builder_.hasher_ != nullptr) builder_.hasher_->add(*row, *argument);
+  if (SceneHasher* hasher = builder_.hasher()) hasher->add(*row, *argument);
   if (row->type == PropertyType::kMaterial) {
     material_ = builder_.find_material(argument->text, place(property.values.front().span), around_);
+    note_material();
+    if (SceneRecorder* recorder = builder_.recorder(); recorder && material_) recorder->use_material(*material_);
     return material_.has_value();
   }
+  const bool is_parameter = parameters_ != nullptr && !is_placing(*row);
+  if (SceneRecorder* recorder = builder_.recorder(); recorder && !is_parameter) recorder->add(*row, *argument);
   if (is_placing(*row)) return apply_placing(*row, *argument, place(property.whole()));
   store(*row, *argument, input);
   return true;
+}
+
+// What is made of a material that changes with time changes with it.
+void BlockContext::note_material() {
+  depends_on_time_ = depends_on_time_ || (material_ && builder_.material_uses_[*material_].depends_on_time);
 }
 
 // A block inside this one: a material in place, a child, or a mistake.
@@ -145,6 +149,7 @@ bool BlockContext::fill_block(const BlockNode& block) {
   if (row != nullptr && row->type == PropertyType::kMaterial && block.words.empty()) {
     if (!accept(*row, place(block.header()))) return false;
     material_ = builder_.build_inline_material(block, around_);
+    note_material();
     return material_.has_value();
   }
   if (row != nullptr && (row->type != PropertyType::kMaterial || !row_.has_children)) {
@@ -168,90 +173,45 @@ bool BlockContext::fill_block(const BlockNode& block) {
   return false;
 }
 
-// Whether a word is no property of this block but something that can be computed with.
-bool BlockContext::is_value_word(Span span) const {
-  const std::string_view word = around_.source->text(span);
-  if (find_property(row_, word) != nullptr) return false;
-  const NameId name = builder_.evaluator_.names().id_of(word);
-  return builder_.evaluator_.is_bound(name, around_.frame->values) || is_misspelt_number(word);
-}
-
-// `center x y z` was read as a property `center` with the value x, and a property `y` with the value z. Gathers what belongs
-// to the property at `index` and returns how many items that took. Where the last value was taken for the kind of a block,
-// the block that is left goes to `rest`.
-std::size_t BlockContext::merge_values(std::size_t index, std::vector<ValueNode>& values, BlockNode& rest) {
-  const auto& property = *std::get<const PropertyNode*>(node_.items[index]);
-  const PropertyRow* row = find_property(row_, around_.source->text(property.name));
-  const std::size_t most = row == nullptr ? 0 : most_numbers(row->type);
-  const auto as_value = [&](Span span) {
-    ValueNode value;
-    value.kind = ValueKind::kWord;
-    value.span = span;
-    value.name = builder_.evaluator_.names().id_of(around_.source->text(span));
-    return value;
-  };
-  std::size_t count = property.values.size(), taken = 1;
-  while (count > 0 && count < most && index + taken < node_.items.size()) {
-    const ItemNode& item = node_.items[index + taken];
-    const auto* next = std::get_if<const PropertyNode*>(&item);
-    if (next != nullptr && is_value_word((*next)->name)) {
-      if (values.empty()) values.assign(property.values.begin(), property.values.end());
-      values.push_back(as_value((*next)->name));
-      values.insert(values.end(), (*next)->values.begin(), (*next)->values.end());
-      count = values.size();
-      ++taken;
-      continue;
-    }
-    const auto* block = std::get_if<const BlockNode*>(&item);
-    if (block != nullptr && !(*block)->words.empty() && is_value_word((*block)->kind)) {
-      if (values.empty()) values.assign(property.values.begin(), property.values.end());
-      values.push_back(as_value((*block)->kind));
-      rest = **block;
-      rest.kind = (*block)->words.front();
-      rest.kind_name = builder_.evaluator_.names().id_of(around_.source->text(rest.kind));
-      rest.words = (*block)->words.subspan(1);
-      return taken + 1;
-    }
-    break;
-  }
-  return taken;
+// The items as they are meant: where the parser can't have known what a property takes, cut anew by this kind's rows.
+void BlockContext::cut_items() {
+  items_ = node_.items;
+  if (node_.is_exact) return;
+  ItemCutter cutter(row_, *around_.source, builder_.evaluator_.names(), builder_.draft_.nodes, [this](std::string_view word) {
+    return find_kind(word) != nullptr ||
+           builder_.find_definition(builder_.evaluator_.names().id_of(word), around_) != nullptr;
+  });
+  if (cutter.is_needed(node_.items)) items_ = cutter.cut(node_.items);
 }
 
 bool BlockContext::fill_items(void* input) {
   bool sound = true;
-  for (std::size_t i = 0; i < node_.items.size();) {
-    const ItemNode& item = node_.items[i];
-    std::size_t taken = 1;
+  for (const ItemNode& item : items_) {
     if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
-      std::vector<ValueNode> values;
-      BlockNode rest;
-      taken = merge_values(i, values, rest);
-      PropertyNode merged = **property;
-      if (!values.empty()) merged.values = values;
-      sound = fill_item(merged, input) && sound;
-      if (rest.kind.end > 0) {
-        detached_.emplace_back(builder_.draft_.nodes.make(rest));
-        sound = fill_block(*std::get<const BlockNode*>(detached_.back())) && sound;
-      }
+      sound = fill_item(**property, input) && sound;
     } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
       sound = fill_block(**block) && sound;
     } else if (const auto* let = std::get_if<const LetNode*>(&item)) {
-      builder_.build_let(**let, around_, let_base_);
+      builder_.build_let(**let, around_, let_base_, false);
     } else if (!row_.has_children && node_.is_closed) {
+      report_statement(item);
       sound = false;
-      const Span keyword = std::visit(
-          [](const auto* node) -> Span {
-            if constexpr (requires { node->keyword; }) return node->keyword;
-            return {};
-          },
-          item);
-      builder_.diagnostics_.error(
-          place(keyword), fmt::format("'{}' can't stand in a {}", around_.source->text(keyword), row_.name),
-          "it stands where a block may stand; a single value can be chosen: (a > 0 ? 1 : 2)");
     }
-    i += taken;
   }
   return sound;
+}
+
+// A statement in a block that has no room for one.
+void BlockContext::report_statement(const ItemNode& item) {
+  const Span keyword = std::visit(
+      [](const auto* node) -> Span {
+        if constexpr (requires { node->keyword; }) return node->keyword;
+        return {};
+      },
+      item);
+  builder_.diagnostics_.error(
+      place(keyword), fmt::format("'{}' can't stand in a {}", around_.source->text(keyword), row_.name),
+      "it stands where a block may stand; a single value can be chosen: (a > 0 ? 1 : 2)");
 }
 
 bool BlockContext::check_required() {
@@ -270,10 +230,11 @@ bool BlockContext::check_required() {
 bool fill(BlockContext& context, void* input) {
   Evaluator& evaluator = context.builder_.evaluator_;
   context.let_base_ = evaluator.bindings().height();
-  SceneHasher* hasher = context.builder_.hasher_;
+  SceneHasher* hasher = context.builder_.hasher();
   if (hasher != nullptr) {
     hasher->begin_block(context.row_, context.name_, context.around_.to_world, context.around_.material);
   }
+  context.cut_items();
   bool sound = context.fill_items(input);
   sound = context.check_required() && sound;
   evaluator.bindings().pop_to(context.let_base_);
@@ -288,34 +249,31 @@ void BlockContext::build_children() {
   inside.to_world = placed(Vector3d(0));
   inside.material = material_.value_or(around_.material);
   inside.let_base = builder_.evaluator_.bindings().height();
-  inside.depends_on_time = around_.depends_on_time || depends_on_time_;
+  inside.depends_on_time = depends_on_time();
   inside.is_unclosed = around_.is_unclosed || !node_.is_closed;
+  inside.is_top = false;
+  const std::size_t definition_height = builder_.definitions_.height();
+  inside.definition_base = definition_height;
   const auto is_child = [&](const ItemNode& item) {
-    if (std::holds_alternative<const PropertyNode*>(item)) return false;
     const auto* block = std::get_if<const BlockNode*>(&item);
-    if (block == nullptr) return true;
-    const bool is_own_material = (*block)->words.empty() && around_.source->text((*block)->kind) == "material";
-    const bool is_detached = !(*block)->words.empty() && is_value_word((*block)->kind) && !detached_.empty();
-    return !is_own_material && !is_detached;
+    if (block == nullptr) return !std::holds_alternative<const PropertyNode*>(item);
+    return !(*block)->words.empty() || around_.source->text((*block)->kind) != "material";
   };
-  for (const ItemNode& item : node_.items) {
-    if (is_child(item)) builder_.build_item(item, inside);
-  }
-  for (const ItemNode& item : detached_) {
+  for (const ItemNode& item : items_) {
     if (is_child(item)) builder_.build_item(item, inside);
   }
   builder_.evaluator_.bindings().pop_to(inside.let_base);
+  builder_.definitions_.pop_to(definition_height);
 }
 
 void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
   builder_.note_shape(header());
-  SceneDescription& scene = builder_.draft_.scene;
-  scene.shapes.push_back(std::move(shape));
-  scene.material_of.push_back(material_.value_or(around_.material));
+  builder_.store_.add(std::move(shape), material_.value_or(around_.material), depends_on_time());
 }
 
 void BlockContext::add_light(const Light& light) {
   builder_.note_shape(header());
+  ++builder_.lights_made_;
   builder_.draft_.scene.lights.push_back(light);
 }
 
@@ -324,6 +282,7 @@ std::uint32_t BlockContext::add_material(const Material& material) {
   const auto index = static_cast<std::uint32_t>(scene.materials.size());
   scene.materials.push_back(material);
   builder_.last_material_ = index;
+  if (SceneHasher* hasher = builder_.hasher()) hasher->add_material(index);
   return index;
 }
 

@@ -4,18 +4,47 @@
 
 #include <algorithm>
 
+#include "core/deep_stack.hpp"
 #include "core/suggest.hpp"
 
 namespace raytracer::scene_file {
+namespace {
 
-Builder::Builder(Files& files, const Limits& limits, const Moment& moment, Diagnostics& diagnostics)
+// Counts a level of nesting while it lives.
+class Deeper {
+ public:
+  explicit Deeper(std::size_t& depth) : depth_(depth) { ++depth_; }
+  ~Deeper() { --depth_; }
+  Deeper(const Deeper&) = delete;
+  Deeper& operator=(const Deeper&) = delete;
+
+ private:
+  std::size_t& depth_;
+};
+
+Place place_of(const ItemNode& item, const Surroundings& around) {
+  const Span span = std::visit(
+      [](const auto* node) -> Span {
+        if constexpr (requires { node->header(); }) return node->header();
+        if constexpr (requires { node->keyword; }) return node->keyword;
+        if constexpr (requires { node->name_span; }) return node->name_span;
+        return {};
+      },
+      item);
+  return {around.source, span};
+}
+
+}  // namespace
+
+Builder::Builder(Files& files, const Limits& limits, const Moment& moment, KeptShapes& kept, Diagnostics& diagnostics)
     : files_(files),
       limits_(limits),
       diagnostics_(diagnostics),
       budget_(limits.steps),
-      evaluator_(files.names(), moment, budget_, diagnostics) {
+      evaluator_(files.names(), moment, budget_, diagnostics),
+      store_(kept) {
   draft_.scene.materials.push_back(Material{});  // of shapes that name none
-  material_uses_.push_back({{}, true});
+  material_uses_.push_back({{}, true, false});
 }
 
 void Builder::build(const SyntaxTree& tree) {
@@ -26,10 +55,31 @@ void Builder::build(const SyntaxTree& tree) {
   top.frame = &frame;
   top.names = &names;
   top.is_top = true;
-  build_items(tree.items, top);
+  run_on_deep_stack([&] {
+    build_items(tree.items, top);
+    try_unused_definitions(top);
+  });
   evaluator_.bindings().pop_to(0);
   definitions_.pop_to(0);
   materials_.pop_to(0);
+}
+
+// A definition that nothing uses is run once all the same, for the mistakes in it.
+void Builder::try_unused_definitions(const Surroundings& top) {
+  const std::vector<std::shared_ptr<const Definition>> definitions = top_definitions_;
+  for (const auto& definition : definitions) {
+    if (halted_ || used_definitions_.contains(definition->node)) continue;
+    const std::size_t lights = draft_.scene.lights.size();
+    ShapeBatch discarded;
+    Surroundings inside = top;
+    inside.is_top = false;
+    inside.source = definition->source;
+    inside.kind = definition->name;
+    store_.record(discarded);
+    build_body(*definition, definition->defaults, inside, {});
+    store_.stop_recording();
+    draft_.scene.lights.resize(lights);
+  }
 }
 
 void Builder::build_items(std::span<const ItemNode> items, const Surroundings& around) {
@@ -38,13 +88,18 @@ void Builder::build_items(std::span<const ItemNode> items, const Surroundings& a
 
 void Builder::build_item(const ItemNode& item, const Surroundings& around) {
   if (halted_) return;
+  // Every level costs some kilobytes of stack; load() provides as much as this many take.
+  if (depth_ >= kDeepestStatements) {
+    return halt(place_of(item, around), fmt::format("blocks and statements are nested more than {} deep", kDeepestStatements));
+  }
+  const Deeper deeper(depth_);
   struct Dispatch {
     Builder& builder;
     const Surroundings& around;
     void operator()(const BlockNode* node) const { builder.build_block(*node, around); }
     void operator()(const PropertyNode* node) const { builder.build_stray_property(*node, around); }
     void operator()(const IncludeNode* node) const { builder.build_include(*node, around); }
-    void operator()(const LetNode* node) const { builder.build_let(*node, around, around.let_base); }
+    void operator()(const LetNode* node) const { builder.build_let(*node, around, around.let_base, around.is_top); }
     void operator()(const ForNode* node) const { builder.build_for(*node, around); }
     void operator()(const IfNode* node) const { builder.build_if(*node, around); }
     void operator()(const DefineNode* node) const { builder.build_define(*node, around); }
@@ -148,7 +203,8 @@ bool Builder::check_standing(const KindRow& row, const BlockNode& block, const S
 // Names are unique within their kind; a setting without a name exists once.
 bool Builder::register_name(const KindRow& row, std::string_view name, const Place& place, const Surroundings& around) {
   if (name.empty() && row.block_class != BlockClass::kSetting) return true;
-  const auto [first, is_new] = around.names->try_emplace(fmt::format("{} {}", row.name, name), place);
+  NameTable& table = row.block_class == BlockClass::kSetting ? setting_names_ : *around.names;
+  const auto [first, is_new] = table.try_emplace(fmt::format("{} {}", row.name, name), place);
   if (is_new) return true;
   diagnostics_.error(place,
                      name.empty() ? fmt::format("a second '{}'", row.name)
@@ -172,6 +228,7 @@ void Builder::build_block(const BlockNode& block, const Surroundings& around) {
   if (row == nullptr || !check_standing(*row, block, around)) return;
   if (row->block_class == BlockClass::kMaterial) return build_material(*row, block, name, around);
   register_name(*row, name, {around.source, block.header()}, around);
+  const SceneRecorder::Block recorded(recorder(), *row, name);
   BlockContext context(*this, *row, block, around, name);
   row->build(context);
 }
@@ -192,24 +249,28 @@ void Builder::build_material(const KindRow& row, const BlockNode& block, std::st
                        {{materials_.at(known).place, "the first stands here"}});
   }
   last_material_.reset();
+  const SceneRecorder::Block recorded(recorder(), row, name);
   BlockContext context(*this, row, block, around, name);
   const std::size_t errors_before = diagnostics_.error_count();
   row.build(context);
+  if (SceneRecorder* told = recorder()) told->name_material(last_material_.value_or(0));
   if (!is_new) return;
   // A material with a mistake in it is known all the same: its uses are no mistakes.
   const std::uint32_t index = last_material_.value_or(0);
   materials_.push(id, index, place);
   material_uses_.resize(draft_.scene.materials.size());
-  if (diagnostics_.error_count() == errors_before) material_uses_[index] = {place, false};
+  const bool sound = diagnostics_.error_count() == errors_before;
+  if (sound) material_uses_[index] = {place, false, context.depends_on_time()};
 }
 
 std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& block, const Surroundings& around) {
   const KindRow* row = find_kind("material");
+  const SceneRecorder::Block recorded(recorder(), *row, {});
   BlockContext context(*this, *row, block, around, {});
   last_material_.reset();
   row->build(context);
-  material_uses_.resize(draft_.scene.materials.size(), {{}, true});
-  if (last_material_) material_uses_[*last_material_] = {{}, true};
+  material_uses_.resize(draft_.scene.materials.size(), {{}, true, false});
+  if (last_material_) material_uses_[*last_material_] = {{}, true, context.depends_on_time()};
   return last_material_;
 }
 
@@ -260,6 +321,7 @@ const BlockNode* Builder::find_later_material(std::string_view name, const Place
 bool Builder::spend(std::uint64_t steps, const Place& place) {
   if (halted_) return false;
   if (budget_.take(steps)) return true;
+  if (diagnostics_.has_errors()) halted_ = true;  // a text with mistakes in it is not run to the end
   halt(place, fmt::format("the scene takes more than {} steps to evaluate", limits_.steps), "--limit steps=N allows more");
   return false;
 }
@@ -281,6 +343,10 @@ void Builder::warn_of_unused_names(const SyntaxTree& main) {
     // A library of materials that is included is not meant to be used whole.
     if (use.used || use.place.source != main.source) continue;
     diagnostics_.warning(use.place, fmt::format("'{}' is never used", use.place.text()));
+  }
+  for (const auto& definition : top_definitions_) {
+    if (definition->source != main.source || used_definitions_.contains(definition->node)) continue;
+    diagnostics_.warning({main.source, definition->node->name_span}, fmt::format("'{}' is never used", definition->name));
   }
   for (const ItemNode& item : main.items) {
     const auto* let = std::get_if<const LetNode*>(&item);

@@ -15,11 +15,16 @@
 #include "scene_file/evaluator.hpp"
 #include "scene_file/files.hpp"
 #include "scene_file/limits.hpp"
+#include "scene_file/shape_store.hpp"
 #include "scene_file/scene_hash.hpp"
+#include "scene_file/scene_recorder.hpp"
 #include "scene_file/schema.hpp"
 #include "scene_file/syntax.hpp"
 
 namespace raytracer::scene_file {
+
+/// Blocks, loops, uses … inside each other, at most, all counted.
+inline constexpr std::size_t kDeepestStatements = 4000;
 
 class Builder;
 struct Definition;
@@ -101,18 +106,20 @@ class BlockContext {
   friend bool fill(BlockContext& context, void* input);
 
   const Given* given(std::string_view property) const;
+  bool depends_on_time() const { return around_.depends_on_time || depends_on_time_; }
   void add_shape(std::unique_ptr<Shape> shape);
   void report_bad_shape(std::string_view problem);
   bool fill_items(void* input);
   bool fill_item(const PropertyNode& property, void* input);
   bool fill_block(const BlockNode& block);
+  void note_material();
   bool check_required();
   bool accept(const PropertyRow& row, const Place& place);
   bool apply_placing(const PropertyRow& row, const Argument& argument, const Place& place);
   void store(const PropertyRow& row, const Argument& argument, void* input);
   void report_unknown_property(Span name);
-  bool is_value_word(Span span) const;
-  std::size_t merge_values(std::size_t index, std::vector<ValueNode>& values, BlockNode& rest);
+  void cut_items();
+  void report_statement(const ItemNode& item);
   Place place(Span span) const { return {around_.source, span}; }
 
   Builder& builder_;
@@ -125,7 +132,7 @@ class BlockContext {
   bool depends_on_time_ = false;
   std::size_t let_base_ = 0;
   std::vector<Given> given_;
-  std::vector<ItemNode> detached_;               // blocks that were taken for the value of a property
+  std::span<const ItemNode> items_;              // of the node, as they are meant
   std::vector<Value>* parameters_ = nullptr;     // of a use of a definition
 };
 
@@ -137,13 +144,15 @@ struct Definition {
   KindRow row;                     ///< its parameters as properties, so that a use is checked like a built-in block
   std::vector<PropertyRow> parameters;
   std::vector<Value> defaults;
+  bool is_top = false;             ///< defined at the top of the scene, where all moments find the same
   Frame frame;                     ///< around it
   std::array<std::size_t, 3> heights{};  ///< of the stacks of values, definitions and materials where it stands
 };
 
 class Builder {
  public:
-  Builder(Files& files, const Limits& limits, const Moment& moment, Diagnostics& diagnostics);
+  /// `kept` holds what earlier moments of the same scene have built, and gets what this one builds for later ones.
+  Builder(Files& files, const Limits& limits, const Moment& moment, KeptShapes& kept, Diagnostics& diagnostics);
 
   /// Top-level lets that the caller replaces: by name, as values.
   /// A string keeps the text as it was given, whatever else it could be read as.
@@ -151,11 +160,17 @@ class Builder {
 
   /// The hasher is told what the scene says; it outlives build().
   void hash_into(SceneHasher& hasher) { hasher_ = &hasher; }
+  /// Likewise the recorder.
+  void record_into(SceneRecorder& recorder) { recorder_ = &recorder; }
 
   /// Evaluates a whole scene.
   void build(const SyntaxTree& tree);
 
+  /// Moves the shapes that were made into the draft's scene.
+  void store_shapes() { store_.move_into(draft_.scene, evaluator_.uses_time()); }
+
   SceneDraft& draft() { return draft_; }
+  std::uint64_t shapes_made() const { return shapes_made_; }
   Diagnostics& diagnostics() { return diagnostics_; }
   Evaluator& evaluator() { return evaluator_; }
   /// About materials, lets and definitions of `main` that nothing uses.
@@ -172,6 +187,14 @@ class Builder {
   friend class BlockContext;
   friend bool fill(BlockContext& context, void* input);
 
+  /// Null where nobody asked, and while a body is built once more to be stored: its first use has said all of it.
+  SceneHasher* hasher() { return store_.is_recording() ? nullptr : hasher_; }
+
+  SceneRecorder* recorder() {
+    const bool is_listening = recorder_ != nullptr && recorder_->is_listening() && !store_.is_recording();
+    return is_listening ? recorder_ : nullptr;
+  }
+
   struct Replacement {
     Value value;
     std::string_view text;
@@ -179,20 +202,26 @@ class Builder {
   struct MaterialUse {
     Place place;  // of the name; no source for unnamed ones
     bool used = false;
+    bool depends_on_time = false;
   };
 
   void build_items(std::span<const ItemNode> items, const Surroundings& around);
+  void try_unused_definitions(const Surroundings& top);
   void build_item(const ItemNode& item, const Surroundings& around);
   void build_stray_property(const PropertyNode& property, const Surroundings& around);
   void build_block(const BlockNode& block, const Surroundings& around);
   void build_material(const KindRow& row, const BlockNode& block, std::string_view name, const Surroundings& around);
   void build_include(const IncludeNode& include, const Surroundings& around);
-  void build_let(const LetNode& let, const Surroundings& around, std::size_t let_base);
+  void build_let(const LetNode& let, const Surroundings& around, std::size_t let_base, bool is_top);
   void build_for(const ForNode& loop, const Surroundings& around);
   Value replaced(const Replacement& replacement, const Value& original, const Place& place) const;
   void build_if(const IfNode& choice, const Surroundings& around);
   void build_define(const DefineNode& define, const Surroundings& around);
   void build_use(const std::shared_ptr<const Definition>& definition, const BlockNode& block, const Surroundings& around);
+  void build_body(const Definition& definition, const std::vector<Value>& arguments, Surroundings inside,
+                  const Place& used_at);
+  std::shared_ptr<const SharedShapes> share_body(const Definition& definition, const std::vector<Value>& arguments,
+                                                 Surroundings inside, const std::string& key, const Place& used_at);
   Value parameter_default(const ParameterNode& parameter, const Surroundings& around);
   std::shared_ptr<const Definition> find_definition(NameId name, const Surroundings& around) const;
 
@@ -219,12 +248,19 @@ class Builder {
   Bindings<std::uint32_t> materials_;
   SceneDraft draft_;
   SceneHasher* hasher_ = nullptr;
+  SceneRecorder* recorder_ = nullptr;
+  ShapeStore store_;
+  UseCounter uses_;
   std::vector<MaterialUse> material_uses_;
   std::unordered_map<NameId, Replacement> replaced_lets_;
   std::vector<TopLevelLet> top_level_lets_;
   std::unordered_map<const SyntaxTree*, int> bad_includes_;
+  NameTable setting_names_;  // a loop makes no second camera
+  std::vector<std::shared_ptr<const Definition>> top_definitions_;
+  std::unordered_map<const DefineNode*, bool> used_definitions_;
+  std::size_t depth_ = 0;  // of statements in statements, all kinds counted
   std::size_t include_depth_ = 0, use_depth_ = 0;
-  std::uint64_t shapes_made_ = 0;
+  std::uint64_t shapes_made_ = 0, lights_made_ = 0;
   bool halted_ = false;
   std::optional<std::uint32_t> last_material_;
 };

@@ -10,6 +10,8 @@
 namespace raytracer::scene_file {
 namespace {
 
+bool starts_a_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
+
 Diagnostic make_diagnostic(Severity severity, const Place& place, std::string message,
                            std::string suggestion) {
   Diagnostic d;
@@ -23,11 +25,13 @@ Diagnostic make_diagnostic(Severity severity, const Place& place, std::string me
   d.column = begin.column;
   d.end_line = end.line;
   d.end_column = end.column;
-  constexpr std::uint32_t kReach = 500;  // bytes to either side: more than a message shows, and lines can be megabytes
+  // Lines can be megabytes long: what lies further off is neither shown nor copied.
+  constexpr std::uint32_t kReach = 500;  // bytes to either side
   const std::string_view line = place.source->line_at(place.span.begin, kReach);
   d.source_line = std::string(line);
-  d.source_column =
-      place.source->locate(static_cast<std::uint32_t>(line.data() - place.source->text().data())).column;
+  const char* at = place.source->text().data() + place.span.begin;
+  const auto before = std::count_if(line.data(), std::max(line.data(), at), starts_a_character);
+  d.source_column = d.column - static_cast<std::uint32_t>(before);
   return d;
 }
 
@@ -58,6 +62,7 @@ void Diagnostics::error(const Place& place, std::string message, std::string sug
   }
   constexpr std::size_t kMostUses = 4;  // the innermost ones; deeper chains are recursions
   for (std::size_t i = 0; i < std::min(kMostUses, used_from_.size()); ++i) {
+    if (used_from_[used_from_.size() - 1 - i].source == nullptr) continue;
     d.notes.push_back(make_diagnostic(Severity::kError, used_from_[used_from_.size() - 1 - i], "used from here", {}));
   }
   messages_.push_back(std::move(d));

@@ -33,6 +33,7 @@ class Diagnostics {
   /// While one lives, every error names the place that its text was used from: an include, a use of a definition.
   class UsedFrom {
    public:
+    /// A place without a source is none.
     UsedFrom(Diagnostics& diagnostics, const Place& place) : diagnostics_(diagnostics) {
       diagnostics_.used_from_.push_back(place);
     }

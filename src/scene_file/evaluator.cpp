@@ -65,7 +65,8 @@ Value Evaluator::evaluate(const Expression& expression, const Source& source, co
 Value Evaluator::evaluate(const ValueNode& value, const Source& source, const Visibility& visibility) {
   switch (value.kind) {
     case ValueKind::kNumber: return Value::number(value.number);
-    case ValueKind::kString: return literal_string(value.span, source);
+    case ValueKind::kString:
+      return value.is_decoded ? Value::string(names_.text(value.name)) : literal_string(value.span, source);
     case ValueKind::kColor: return Value::display_color(hexadecimal_color(source.text(value.span)));
     case ValueKind::kExpression: return compute(*value.expression, {source, visibility});
     case ValueKind::kWord: {

@@ -62,7 +62,10 @@ class Evaluator {
 
   Bindings<NamedValue>& bindings() { return bindings_; }
   Names& names() { return names_; }
+  /// Whether `t` or `frame` has been asked for, since the start or since forget_time().
   bool uses_time() const { return uses_time_; }
+  void forget_time() { uses_time_ = false; }
+  void note_time() { uses_time_ = true; }
   bool was_used(const LetNode* let) const { return used_lets_.contains(let); }
   /// The best guess at what a misspelt name should have been.
   std::string suggestion_for(std::string_view name, const Visibility& visibility) const;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "raytracer/error.hpp"
+#include "scene_file/json_scene.hpp"
 #include "scene_file/parser.hpp"
 
 namespace raytracer::scene_file {
@@ -96,7 +97,8 @@ bool Files::is_allowed(const std::string& canonical_path) const {
 const SyntaxTree* Files::add(std::string name, std::string path, std::string text, Diagnostics& diagnostics) {
   File file;
   file.source = std::make_unique<Source>(std::move(name), std::move(path), std::move(text));
-  file.tree = parse(*file.source, names_, diagnostics);
+  const bool json = is_json(file.source->name(), file.source->text());
+  file.tree = json ? parse_json_scene(*file.source, names_, diagnostics) : parse(*file.source, names_, diagnostics);
   files_.push_back(std::move(file));
   return files_.back().tree.get();
 }

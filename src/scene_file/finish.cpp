@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -42,6 +43,7 @@ CameraDraft framing_camera(const SceneDescription& scene, double aspect) {
     const Box3f bounds = shape->bounds();
     if (bounds.is_finite()) box.extend(bounds);
   }
+  for (const Instance& instance : scene.instances) box.extend(instance.bounds(scene.shared[instance.shared]->bounds()));
   if (box.is_empty()) box = {Vector3f(-1), Vector3f(1)};
   CameraDraft camera;
   const FieldOfView fov = field_of_view(camera, aspect);
@@ -108,7 +110,9 @@ bool is_anything_in_view(const SceneDescription& scene) {
       return true;
     }
   }
-  return false;
+  return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+    return !is_outside_of_view(instance.bounds(scene.shared[instance.shared]->bounds()), scene.camera);
+  });
 }
 
 }  // namespace
@@ -143,7 +147,7 @@ RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::
     scene.lights.push_back(headlight);
     diagnostics.warning(name, "the scene has no light", "one shines from the camera");
   }
-  if (scene.shapes.empty()) {
+  if (scene.shapes.empty() && scene.instances.empty()) {
     diagnostics.warning(name, "nothing is in view: the scene has no shapes", "sphere { }");
   } else if (!is_anything_in_view(scene)) {
     diagnostics.warning(name, "nothing is in view: no shape lies where the camera looks",

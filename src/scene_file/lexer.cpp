@@ -17,13 +17,6 @@ bool is_word_character(char c) { return is_letter(c) || is_digit(c) || is_foreig
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 constexpr std::string_view kNoBreakSpace = "\xC2\xA0";
 
-// Of a number that no double holds: whether it is too small rather than too large.
-bool is_tiny(std::string_view number) {
-  const std::size_t exponent = number.find_first_of("eE");
-  if (exponent != std::string_view::npos) return number[exponent + 1] == '-';
-  return number.find_first_of("123456789") > number.find('.');
-}
-
 }  // namespace
 
 Lexer::Lexer(const Source& source, Diagnostics& diagnostics)
@@ -139,7 +132,7 @@ Token Lexer::lex_number() {
   Token result = token(TokenType::kNumber, begin);
   const char* first = text_.data() + begin + (text_[begin] == '+' ? 1 : 0);
   const auto [end, status] = std::from_chars(first, text_.data() + position_, result.number);
-  if (status == std::errc::result_out_of_range && is_tiny(source_->text(result.span))) {
+  if (status == std::errc::result_out_of_range && is_tiny_number(source_->text(result.span))) {
     result.number = 0;  // too small to tell from 0
   } else if (status != std::errc()) {
     error(result.span, fmt::format("'{}' is too large a number", source_->text(result.span)));
@@ -165,13 +158,9 @@ Token Lexer::lex_string() {
 
 Token Lexer::lex_color() {
   const std::uint32_t begin = position_++;
-  bool all_hexadecimal = true;
-  while (is_word_character(at(position_))) {
-    const char c = text_[position_++];
-    all_hexadecimal = all_hexadecimal && (is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'));
-  }
+  while (is_word_character(at(position_))) ++position_;
   const std::uint32_t digits = position_ - begin - 1;
-  if (!all_hexadecimal || (digits != 3 && digits != 6)) {
+  if (!is_color(source_->text({begin, position_}))) {
     error({begin, position_}, fmt::format("'{}' is not a colour", source_->text({begin, position_})),
           digits == 0 ? "comments begin with //" : "colours look like #f80 or #ff8800");
     return token(TokenType::kBad, begin);
@@ -245,6 +234,17 @@ Token Lexer::lex_lookalike() {
     error({begin, position_}, fmt::format("'{}' is not a quotation mark", sign), "strings stand between \"…\"");
   }
   return token(TokenType::kBad, begin);
+}
+
+bool is_tiny_number(std::string_view number) {
+  const std::size_t exponent = number.find_first_of("eE");
+  if (exponent != std::string_view::npos) return number[exponent + 1] == '-';
+  return number.find_first_of("123456789") > number.find('.');
+}
+
+bool is_color(std::string_view text) {
+  const bool all_hexadecimal = text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string_view::npos;
+  return text.starts_with('#') && all_hexadecimal && (text.size() == 4 || text.size() == 7);
 }
 
 std::string unquote(std::string_view quoted) {

@@ -76,6 +76,12 @@ class Lexer {
   bool ended_in_comment_ = false;
 };
 
+/// Of a number that no double holds: whether it is too small rather than too large.
+bool is_tiny_number(std::string_view number);
+
+/// Whether a text is `#rgb` or `#rrggbb`.
+bool is_color(std::string_view text);
+
 /// The text between the quotes of a kString token, its escapes resolved.
 std::string unquote(std::string_view quoted);
 

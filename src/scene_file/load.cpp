@@ -1,6 +1,7 @@
 // The three stages joined: text, nodes, scene.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -28,6 +29,7 @@ struct SceneText {
   std::string name;
   std::unique_ptr<Files> files;
   const scene_file::SyntaxTree* tree = nullptr;
+  scene_file::KeptShapes kept;
   double fps = 24;
 };
 
@@ -55,6 +57,20 @@ class ScenesOverTime {
     return *latest_.moment;
   }
 
+  std::string json(double time) const {
+    Diagnostics diagnostics;
+    Builder builder(*text_->files, text_->options.limits, moment_of(time), text_->kept, diagnostics);
+    scene_file::SceneRecorder recorder;
+    builder.record_into(recorder);
+    build(builder, time, diagnostics);
+    for (const scene_file::CameraDraft& camera : builder.draft().cameras) {
+      if (camera.shutter == 0) continue;
+      diagnostics.error(camera.place, "with an open shutter a picture shows more than one moment", "shutter 0");
+      throw Error(ErrorKind::kScene, fmt::format("the scene can't be written as JSON\n{}", all_messages(diagnostics)));
+    }
+    return recorder.text();
+  }
+
  private:
   struct Evaluated {
     double time = 0;
@@ -71,19 +87,30 @@ class ScenesOverTime {
     latest_ = evaluate(time, with_moment);
   }
 
+  Moment moment_of(double time) const {
+    return {time, static_cast<int>(std::floor(time * text_->fps + 1e-6)) + 1};
+  }
+
+  static std::string all_messages(Diagnostics& diagnostics) {
+    std::string all;
+    for (const Diagnostic& diagnostic : diagnostics.take()) all += to_text(diagnostic) + '\n';
+    return all;
+  }
+
+  void build(Builder& builder, double time, Diagnostics& diagnostics) const {
+    scene_file::apply_settings(text_->options.settings, *text_->files, builder);
+    builder.build(*text_->tree);
+    if (!diagnostics.has_errors()) return;
+    throw Error(ErrorKind::kScene, fmt::format("the scene is wrong at t = {}:\n{}", time, all_messages(diagnostics)));
+  }
+
   Evaluated evaluate(double time, bool with_moment) const {
     Diagnostics diagnostics;
-    const Moment moment{time, static_cast<int>(std::floor(time * text_->fps + 1e-6)) + 1};
-    Builder builder(*text_->files, text_->options.limits, moment, diagnostics);
-    scene_file::apply_settings(text_->options.settings, *text_->files, builder);
+    Builder builder(*text_->files, text_->options.limits, moment_of(time), text_->kept, diagnostics);
     scene_file::SceneHasher hasher;
     if (with_moment) builder.hash_into(hasher);
-    builder.build(*text_->tree);
-    if (diagnostics.has_errors()) {
-      std::string all;
-      for (const Diagnostic& diagnostic : diagnostics.take()) all += to_text(diagnostic) + '\n';
-      throw Error(ErrorKind::kScene, fmt::format("the scene is wrong at t = {}:\n{}", time, all));
-    }
+    build(builder, time, diagnostics);
+    builder.store_shapes();
     Evaluated evaluated;
     evaluated.time = time;
     const RenderSettings settings = scene_file::finish(builder.draft(), text_->options, text_->name, diagnostics);
@@ -109,7 +136,11 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
   Diagnostics diagnostics;
   LoadedScene loaded;
   scene_text->tree = files.add_main(name, path, std::move(text), diagnostics);
-  Builder builder(files, options.limits, Moment{}, diagnostics);
+  Limits limits = options.limits;
+  // A text that could not be read whole is run for the mistakes in what could; its loops may lack their ends.
+  constexpr std::uint64_t kStepsOfBadText = 1'000'000;
+  if (diagnostics.has_errors()) limits.steps = std::min(limits.steps, kStepsOfBadText);
+  Builder builder(files, limits, Moment{}, scene_text->kept, diagnostics);
   scene_file::apply_settings(options.settings, files, builder);
   builder.build(*scene_text->tree);
   loaded.files_read = files.read_paths();
@@ -117,9 +148,10 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
   if (!diagnostics.has_errors()) {
     scene_file::check_settings(options.settings, builder);
     builder.warn_of_unused_names(*scene_text->tree);
+    builder.store_shapes();
     scene_file::SceneDraft& draft = builder.draft();
     loaded.settings = scene_file::finish(draft, options, name, diagnostics);
-    loaded.shapes = draft.scene.shapes.size();
+    loaded.shapes = builder.shapes_made();
     loaded.animation = {draft.duration, draft.fps};
     scene_text->fps = draft.fps;
     loaded.depends_on_time = builder.evaluator().uses_time();
@@ -130,6 +162,7 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
         std::make_shared<ScenesOverTime>(scene_text, std::move(draft.scene), loaded.depends_on_time);
     loaded.scene_at = [scenes](double time) { return scenes->at(time); };
     loaded.moment_at = [scenes](double time) { return scenes->moment(time); };
+    loaded.json_at = [scenes](double time) { return scenes->json(time); };
   }
   loaded.diagnostics = diagnostics.take();
   return loaded;

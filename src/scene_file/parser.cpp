@@ -17,8 +17,6 @@
 namespace raytracer::scene_file {
 namespace {
 
-constexpr int kLanguageVersion = 1;
-
 bool is_statement(std::string_view word) {
   constexpr std::string_view kStatements[] = {"include", "let", "for", "if", "else", "define"};
   return std::ranges::find(kStatements, word) != std::end(kStatements);
@@ -254,6 +252,12 @@ const PropertyNode* Parser::parse_property(Context context) {
   property.name = tokens_.current().span;
   property.name_id = tokens_.name_of(property.name);
   tokens_.advance();
+  if (tokens_.is_operator("=") && (context.empty() || context == "group")) {
+    tokens_.error(property.name, fmt::format("'{}' is given a value without 'let'", tokens_.text(property.name)),
+                  fmt::format("let {} = …", tokens_.text(property.name)));
+    skip_to_statement();
+    return nullptr;
+  }
   std::vector<ValueNode> values;
   if (tokens_.is(TokenType::kWord) && !begins_next_property(context)) values.push_back(take_value());
   bool is_bad = false;
@@ -316,13 +320,23 @@ bool Parser::take_new_name(Span keyword, std::string_view what, Span& span, Name
   return true;
 }
 
-// After a statement that can't be understood: on to a word that may begin the next one, over whole pairs of braces.
+// After a statement that can't be understood: silently on to the next one, which begins with a keyword or in a new line, and
+// over the braces that belong to this one.
 void Parser::skip_to_statement() {
+  tokens_.mute(true);
+  std::uint32_t end = tokens_.previous_end();
   while (!tokens_.is(TokenType::kEnd) && !tokens_.is(TokenType::kCloseBrace)) {
-    if (tokens_.is(TokenType::kOpenBrace)) return skip_nested_braces();
+    if (tokens_.is(TokenType::kOpenBrace)) {
+      skip_nested_braces();
+      break;
+    }
+    const bool is_new_line =
+        tokens_.text({end, tokens_.current().span.begin}).find_first_of("\r\n") != std::string_view::npos;
+    if (tokens_.is(TokenType::kWord) && (is_statement(tokens_.text()) || is_new_line)) break;
+    end = tokens_.current().span.end;
     tokens_.advance();
-    if (tokens_.is(TokenType::kWord) && (is_statement(tokens_.text()) || words_before_brace() > 0)) return;
   }
+  tokens_.mute(false);
 }
 
 const LetNode* Parser::parse_let() {
@@ -336,8 +350,7 @@ const LetNode* Parser::parse_let() {
       tokens_.error(let.name_span, fmt::format("'let {}' needs a '=' and a value", tokens_.text(let.name_span)),
                     "let n = 12");
     }
-    if (!current_is_value()) return nullptr;
-    while (current_is_value()) take_value();
+    skip_to_statement();
     return nullptr;
   }
   tokens_.set_mode(LexMode::kExpression);
@@ -356,7 +369,9 @@ const LetNode* Parser::parse_let() {
 const Expression* Parser::parse_clause(std::string_view keyword, Span statement) {
   if (!tokens_.is_word(keyword)) {
     if (!tokens_.is(TokenType::kBad)) {
-      tokens_.error(statement, fmt::format("'for' needs a '{}'", keyword), "for i from 0 to 9 { … }");
+      const bool is_other_way = keyword == "from" && (tokens_.is_operator("=") || tokens_.is_word("in"));
+      tokens_.error(is_other_way ? tokens_.current().span : statement, fmt::format("'for' needs a '{}'", keyword),
+                    "for i from 0 to 9 { … }");
     }
     return nullptr;
   }
@@ -393,7 +408,9 @@ const IfNode* Parser::parse_if(Context context) {
   tokens_.advance();
   choice.condition = ExpressionParser(tokens_).parse_open();
   if (!tokens_.is(TokenType::kOpenBrace)) {
-    if (choice.condition->operation != Operation::kUnknown) {
+    if (choice.condition->operation != Operation::kUnknown && tokens_.is_operator("=")) {
+      tokens_.error(tokens_.current().span, "'=' gives a name its value", "'==' compares");
+    } else if (choice.condition->operation != Operation::kUnknown && !tokens_.is(TokenType::kBad)) {
       tokens_.error(choice.keyword, "'if' needs braces around what it guards", "if t > 2 { … } else { … }");
     }
     skip_to_statement();

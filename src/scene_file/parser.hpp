@@ -10,6 +10,9 @@
 
 namespace raytracer::scene_file {
 
+/// What `raytracer 1` at the beginning of a scene says.
+inline constexpr int kLanguageVersion = 1;
+
 /// Blocks inside blocks, and parentheses inside parentheses, at most; the parser is recursive.
 inline constexpr int kDeepestNesting = 256;
 

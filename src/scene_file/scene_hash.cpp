@@ -11,6 +11,10 @@ bool goes_into_pixels(const KindRow& kind) { return kind.name != "animation"; }
 
 }  // namespace
 
+void SceneHasher::add_material(std::uint32_t index) {
+  material_numbers_[index] = material_numbers_.size() + 1;
+}
+
 void SceneHasher::begin_block(const KindRow& kind, std::string_view name, const Transform& to_world,
                               std::uint32_t material) {
   is_seen_ = goes_into_pixels(kind);
@@ -18,7 +22,7 @@ void SceneHasher::begin_block(const KindRow& kind, std::string_view name, const 
   hasher_.add(kBegin);
   for (const std::string_view word : {kind.name, kind.variant, name}) hasher_.add(word);
   add(to_world);
-  hasher_.add(std::uint64_t{material});
+  add_number_of(material);
 }
 
 void SceneHasher::add(const PropertyRow& property, const Argument& argument) {
@@ -33,7 +37,8 @@ void SceneHasher::add(const PropertyRow& property, const Argument& argument) {
 void SceneHasher::end_block(const std::optional<std::uint32_t>& material) {
   if (is_seen_) {
     hasher_.add(kEnd);
-    hasher_.add(material ? std::uint64_t{*material} + 1 : 0);
+    hasher_.add(std::uint64_t{material.has_value()});
+    if (material) add_number_of(*material);
   }
   is_seen_ = true;
 }
@@ -45,6 +50,11 @@ SceneHash SceneHasher::finish(const RenderSettings& settings, std::string_view c
   hasher_.add(std::uint64_t{settings.seed});
   hasher_.add(camera);
   return hasher_.value();
+}
+
+void SceneHasher::add_number_of(std::uint32_t material) {
+  const auto known = material_numbers_.find(material);
+  hasher_.add(known == material_numbers_.end() ? 0 : known->second);
 }
 
 void SceneHasher::add(const Transform& transform) {

@@ -81,6 +81,8 @@ const PropertyRow* find_property(const KindRow& kind, std::string_view name) {
 }
 
 bool is_property_of(std::string_view kind, std::string_view property) {
+  // Of a definition nobody knows the parameters here, but it is placed and made of a material as a group is.
+  if (!kind.empty() && find_kind(kind) == nullptr) kind = "group";
   return std::ranges::any_of(all_kinds(), [&](const KindRow& row) {
     return row.name == kind && find_property(row, property) != nullptr;
   });

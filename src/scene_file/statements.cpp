@@ -13,6 +13,10 @@ namespace {
 constexpr std::uint64_t kStepsPerInclude = 10'000;
 constexpr std::uint64_t kStepsPerUse = 10;
 
+// A definition that makes fewer shapes is built at every use: an instance costs as much as a handful of shapes, and a ray
+// pays for entering it.
+constexpr std::uint64_t kLeastToShare = 16;
+
 PropertyType parameter_type(ValueType type) {
   switch (type) {
     case ValueType::kBoolean: return PropertyType::kBoolean;
@@ -49,7 +53,7 @@ void Builder::build_include(const IncludeNode& include, const Surroundings& arou
   if (diagnostics_.error_count() + diagnostics_.repeated() > errors_before) ++bad_turns;
 }
 
-void Builder::build_let(const LetNode& let, const Surroundings& around, std::size_t let_base) {
+void Builder::build_let(const LetNode& let, const Surroundings& around, std::size_t let_base, bool is_top) {
   const Place place{around.source, let.name_span};
   Value value = evaluator_.evaluate(*let.value, *around.source, around.frame->values);
   if (!spend(1, place)) return;
@@ -60,7 +64,7 @@ void Builder::build_let(const LetNode& let, const Surroundings& around, std::siz
                        {{bindings.at(known).place, "first assigned here"}});
     return;
   }
-  if (around.is_top && let_base == around.let_base) {
+  if (is_top) {
     const auto replacement = replaced_lets_.find(let.name);
     const bool replaces = replacement != replaced_lets_.end();
     if (replaces) value = replaced(replacement->second, value, place);
@@ -176,6 +180,7 @@ void Builder::build_define(const DefineNode& define, const Surroundings& around)
   definition->source = around.source;
   definition->name = place.text();
   definition->frame = *around.frame;
+  definition->is_top = around.is_top;
   for (const ParameterNode& parameter : define.parameters) {
     PropertyRow row;
     row.name = around.source->text(parameter.name_span);
@@ -193,6 +198,8 @@ void Builder::build_define(const DefineNode& define, const Surroundings& around)
                        {{definitions_.at(known).place, "first defined here"}});
     return;
   }
+  if (SceneRecorder* told = recorder()) told->define(definition.get(), definition->name);
+  if (around.is_top) top_definitions_.push_back(definition);
   // Its own name belongs to what the body sees: a definition may use itself.
   definition->heights = {evaluator_.bindings().height(), definitions_.height() + 1, materials_.height()};
   definitions_.push(define.name, std::move(definition), place);
@@ -206,38 +213,88 @@ void Builder::build_use(const std::shared_ptr<const Definition>& definition, con
     return halt(place, fmt::format("uses of definitions are nested more than {} deep", limits_.nesting),
                 "a definition that uses itself needs an 'if' that ends it");
   }
+  used_definitions_[definition->node] = true;
   const std::string_view name = block.words.empty() ? std::string_view() : around.source->text(block.words[0]);
   register_name(definition->row, name, place, around);
   std::vector<Value> arguments = definition->defaults;
+  const SceneRecorder::Block recorded(recorder(), definition->row, name);
   BlockContext context(*this, definition->row, block, around, name);
   context.parameters_ = &arguments;
   if (!fill(context, nullptr)) return;
+  if (SceneRecorder* told = recorder()) told->use(definition.get(), arguments);
 
-  const Diagnostics::UsedFrom used_from(diagnostics_, place);
-  auto& bindings = evaluator_.bindings();
-  const std::array<std::size_t, 3> heights = {bindings.height(), definitions_.height(), materials_.height()};
-  Frame frame;
-  frame.values = {heights[0], definition->heights[0], &definition->frame.values};
-  frame.definitions = {heights[1], definition->heights[1], &definition->frame.definitions};
-  frame.materials = {heights[2], definition->heights[2], &definition->frame.materials};
-  NameTable names;
   Surroundings inside;
   inside.source = definition->source;
   inside.kind = definition->name;
   inside.to_world = context.placed(Vector3d(0));
   inside.material = context.material_.value_or(around.material);
+  inside.depends_on_time = context.depends_on_time();
+
+  // The first use is built where it stands; when the same comes again, it is built once more in its own space, for that
+  // and all later uses. One level of instances: uses inside uses are built out.
+  if (store_.is_recording()) return build_body(*definition, arguments, inside, place);
+  const void* owner = definition->is_top ? static_cast<const void*>(definition->node) : definition.get();
+  const std::string key = use_key(owner, arguments, inside.material);
+  UseRecord& record = uses_[key];
+  if (++record.count == 1) {
+    const std::uint64_t shapes = shapes_made_, lights = lights_made_, endless = store_.endless_made();
+    build_body(*definition, arguments, inside, place);
+    UseRecord& done = uses_[key];  // the body's own uses may have moved it
+    done.can_be_shared = shapes_made_ - shapes >= kLeastToShare && lights_made_ == lights && store_.endless_made() == endless;
+    return;
+  }
+  if (!record.can_be_shared) return build_body(*definition, arguments, inside, place);
+  if (record.shared == nullptr) record.shared = share_body(*definition, arguments, inside, key, place);
+  note_shape(place);
+  if (record.shared != nullptr) store_.add_instance(record.shared, inside.to_world);
+}
+
+// The body of a definition in its own space, with a tree over it.
+std::shared_ptr<const SharedShapes> Builder::share_body(const Definition& definition, const std::vector<Value>& arguments,
+                                                        Surroundings inside, const std::string& key, const Place& used_at) {
+  // Of what is defined at the top and uses no time every moment finds the same.
+  const bool may_be_kept = definition.is_top && !inside.depends_on_time;
+  if (may_be_kept) {
+    if (auto kept = store_.find_kept(key)) return kept;
+  }
+  inside.to_world = Transform{};
+  ShapeBatch list;
+  const bool used_time = evaluator_.uses_time();
+  evaluator_.forget_time();
+  store_.record(list);
+  build_body(definition, arguments, inside, used_at);
+  store_.stop_recording();
+  const bool uses_time = evaluator_.uses_time();
+  if (used_time) evaluator_.note_time();
+  if (halted_) return nullptr;
+  auto shared = ShapeStore::share(std::move(list), draft_.scene.materials);
+  if (may_be_kept && !uses_time) store_.keep(key, shared);
+  return shared;
+}
+
+// Runs a definition's statements with its parameters bound, seeing what its text sees.
+void Builder::build_body(const Definition& definition, const std::vector<Value>& arguments, Surroundings inside,
+                         const Place& used_at) {
+  const Diagnostics::UsedFrom used_from(diagnostics_, used_at);
+  const SceneRecorder::Body recorded(recorder(), &definition, arguments);
+  auto& bindings = evaluator_.bindings();
+  const std::array<std::size_t, 3> heights = {bindings.height(), definitions_.height(), materials_.height()};
+  Frame frame;
+  frame.values = {heights[0], definition.heights[0], &definition.frame.values};
+  frame.definitions = {heights[1], definition.heights[1], &definition.frame.definitions};
+  frame.materials = {heights[2], definition.heights[2], &definition.frame.materials};
+  NameTable names;
   inside.frame = &frame;
   inside.names = &names;
   inside.let_base = heights[0];
   inside.definition_base = heights[1];
   inside.material_base = heights[2];
-  inside.depends_on_time = around.depends_on_time || context.depends_on_time_;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const ParameterNode& parameter = definition->node->parameters[i];
-    bindings.push(parameter.name, {arguments[i], nullptr, false}, {definition->source, parameter.name_span});
+    const ParameterNode& parameter = definition.node->parameters[i];
+    bindings.push(parameter.name, {arguments[i], nullptr, false}, {definition.source, parameter.name_span});
   }
   ++use_depth_;
-  build_items(definition->node->items, inside);
+  build_items(definition.node->items, inside);
   --use_depth_;
   bindings.pop_to(heights[0]);
   definitions_.pop_to(heights[1]);

@@ -64,7 +64,8 @@ struct ValueNode {
   ValueKind kind = ValueKind::kBad;
   Span span;
   double number = 0;                       ///< of a kNumber
-  NameId name = 0;                         ///< of a kWord
+  NameId name = 0;                         ///< of a kWord; of a kString that is decoded its text
+  bool is_decoded = false;                 ///< of a kString: the source's text is not as it stands between its quotes
   const Expression* expression = nullptr;  ///< of a kExpression
 };
 
@@ -137,9 +138,15 @@ struct BlockNode {
   std::span<const Span> words;
   std::span<const ItemNode> items;
   std::uint32_t end = 0;  ///< behind the closing brace
+  bool is_exact = false;  ///< its items need no knowledge of the kind to be told apart (JSON)
   bool is_closed = true;  ///< false where the text ended first, which has been reported
 
-  Span header() const { return {kind.begin, words.empty() ? kind.end : words.back().end}; }
+  /// In JSON the words may stand in front of the kind.
+  Span header() const {
+    Span all = kind;
+    for (const Span& word : words) all = {std::min(all.begin, word.begin), std::max(all.end, word.end)};
+    return all;
+  }
 };
 
 /// Memory for nodes: handed out piece by piece, given back all at once. Nodes need no destructor.

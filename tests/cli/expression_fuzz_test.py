@@ -15,7 +15,7 @@ import program
 COLORS = {"red": "ff0000", "lime": "00ff00", "tomato": "ff6347", "steelblue": "4682b4", "gold": "ffd700",
           "black": "000000", "white": "ffffff"}
 
-# --- the language, written down a second time ----------------------------------------------------------------------------
+# --- the language, written down a second time ---------------------------------------------------------------
 
 
 class Mistake(Exception):
@@ -355,7 +355,7 @@ class Evaluator:
         return result
 
 
-# --- expressions by chance ---------------------------------------------------------------------------------------------
+# --- expressions by chance ----------------------------------------------------------------------------------
 
 LEVELS = {"choice": 0, "or": 1, "and": 2, "not": 3, "comparison": 4, "+": 5, "-": 5, "*": 6, "/": 6, "%": 6, "sign": 7,
           "^": 8, "member": 9}

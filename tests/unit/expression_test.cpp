@@ -19,12 +19,13 @@ struct Row {
 
 // The names that the tables below compute with.
 constexpr const char* kNames =
-    "let a = 2\nlet b = 3\nlet v = (1, 2, 3)\nlet c = #ff8000\nlet yes = true\nlet no = false\nlet s = \"text\"\n";
+    "let a = 2\nlet b = 3\nlet v = (1, 2, 3)\nlet c = #ff8000\nlet yes = true\nlet no = false\nlet s = "
+    "\"text\"\n";
 
 void check_table(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
-    const LoadedScene scene =
-        load_scene_text(std::string(kNames) + "let result = " + row.expression + "\nsphere { }\n", "expressions.txt");
+    const LoadedScene scene = load_scene_text(
+        std::string(kNames) + "let result = " + row.expression + "\nsphere { }\n", "expressions.txt");
     INFO(row.expression);
     for (const Diagnostic& diagnostic : scene.diagnostics) UNSCOPED_INFO(to_text(diagnostic));
     CHECK(scene.ok());
@@ -250,8 +251,8 @@ TEST_CASE("numbers, strings and names are read as they are written", "[expressio
 }
 
 TEST_CASE("an expression in a let runs as far as it can, and no further", "[expressions]") {
-  const LoadedScene scene =
-      load_scene_text("let a = 1 + 2 let b = a * 2 sphere { radius b } let c = b\nlet d = c - 1 group { }", "let.txt");
+  const LoadedScene scene = load_scene_text(
+      "let a = 1 + 2 let b = a * 2 sphere { radius b } let c = b\nlet d = c - 1 group { }", "let.txt");
   REQUIRE(scene.ok());
   REQUIRE(scene.parameters.size() == 4);
   REQUIRE(scene.parameters[0].value == "3");
@@ -308,17 +309,25 @@ TEST_CASE("mistakes in the form of expressions are told where they are", "[expre
   check_mistake("«let» = 2", "value is missing");
 }
 
-TEST_CASE("expressions are nested as deep as the limit says, and no text makes them fall over", "[expressions]") {
+TEST_CASE("expressions are nested as deep as the limit says, and no text makes them fall over",
+          "[expressions]") {
   const auto repeat = [](const std::string& text, int count) {
     std::string all;
     for (int i = 0; i < count; ++i) all += text;
     return all;
   };
-  REQUIRE(load_scene_text("let x = " + repeat("(", 200) + "1" + repeat(")", 200) + "\nsphere { radius x }", "deep.txt").ok());
-  for (const auto& [before, after] : std::vector<std::pair<std::string, std::string>>{
-           {"(", ")"}, {"-", ""}, {"not ", ""}, {"sin(", ")"}, {"2 ^ ", ""}, {"true ? 1 : ", ""}, {"(1, 2, ", ")"}}) {
-    const LoadedScene scene =
-        load_scene_text("let x = " + repeat(before, 100'000) + "1" + repeat(after, 100'000) + "\nsphere { }", "deep.txt");
+  REQUIRE(load_scene_text("let x = " + repeat("(", 200) + "1" + repeat(")", 200) + "\nsphere { radius x }",
+                          "deep.txt")
+              .ok());
+  for (const auto& [before, after] : std::vector<std::pair<std::string, std::string>>{{"(", ")"},
+                                                                                      {"-", ""},
+                                                                                      {"not ", ""},
+                                                                                      {"sin(", ")"},
+                                                                                      {"2 ^ ", ""},
+                                                                                      {"true ? 1 : ", ""},
+                                                                                      {"(1, 2, ", ")"}}) {
+    const LoadedScene scene = load_scene_text(
+        "let x = " + repeat(before, 100'000) + "1" + repeat(after, 100'000) + "\nsphere { }", "deep.txt");
     INFO(before);
     CHECK_FALSE(scene.ok());
     CHECK(scene.diagnostics.size() == 1);
@@ -332,7 +341,8 @@ TEST_CASE("long chains of one operator are computed or refused", "[expressions]"
     CHECK(load_scene_text(text + "\nsphere { }", "chain.txt").ok());
   }
   for (const std::string chain : {" + 1", ".x", " and true", " or false", " % 2"}) {
-    std::string text = chain.starts_with(" a") || chain.starts_with(" o") ? "let x = true" : "let x = (1, 2, 3)";
+    std::string text =
+        chain.starts_with(" a") || chain.starts_with(" o") ? "let x = true" : "let x = (1, 2, 3)";
     for (int i = 0; i < 500'000; ++i) text += chain;
     const LoadedScene scene = load_scene_text(text + "\nsphere { }", "chain.txt");
     INFO(chain);

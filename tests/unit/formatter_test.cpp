@@ -15,7 +15,6 @@ namespace {
 
 std::string formatted(const std::string& text) {
   const FormattedText result = format_text(text, "scene");
-  INFO(text);
   for (const Diagnostic& d : result.diagnostics) UNSCOPED_INFO(to_text(d));
   REQUIRE(result.diagnostics.empty());
   return result.text;
@@ -71,7 +70,7 @@ std::string respaced(const std::string& text, std::mt19937& random) {
   for (const ReadToken& read : parsed.tokens) pieces.push_back(read.token.span);
   std::ranges::sort(pieces, {}, &Span::begin);
   constexpr const char* kSpaces[] = {" ", "  ", "\t", "\n", "\n\n\n\n", "\r\n", " /* new */ ", " // new\n", "\n// new \n\n",
-                                     "/* of /* two */\n lines */", "   \n  "};
+                                     " /* of /* two */\n lines */", "   \n  "};
   std::string out;
   std::uint32_t end = 0;
   for (const Span& piece : pieces) {
@@ -148,7 +147,7 @@ TEST_CASE("canonical form by examples") {
       {"let a=1+-2*sin( 30 )^2", "let a = 1 + -2 * sin(30) ^ 2\n"},
       {"let a = - ( 1,2 ,3 ) .x", "let a = -(1, 2, 3).x\n"},
       {"let a = not(b)?c:d", "let a = not (b) ? c : d\n"},
-      {"let a=(1<2and 3>=4)", "let a = (1 < 2 and 3 >= 4)\n"},
+      {"let a=(1<2 and 3>=4)", "let a = (1 < 2 and 3 >= 4)\n"},
       {"sphere { radius( 1 )center -1 +2 .5 }", "sphere { radius (1)  center -1 +2 .5 }\n"},
       {"sphere { center x y z radius r }", "sphere { center x y z  radius r }\n"},
       {"group { translate x y z material { } }", "group { translate x y z  material { } }\n"},
@@ -156,7 +155,7 @@ TEST_CASE("canonical form by examples") {
       {"define d (at (0,0,0), s 1) { }\nd { at x y z s 2 }", "define d (at (0, 0, 0), s 1) { }\nd { at x y z  s 2 }\n"},
       {"for i from 0 to n-1{sphere{}}", "for i from 0 to n - 1 { sphere { } }\n"},
       {"if a{sphere{}}\nelse if b{}else{cube{}}", "if a {\n  sphere { }\n} else if b { } else {\n  cube { }\n}\n"},
-      {"sphere { // c\n radius 1 }//d", "sphere {  // c\n  radius 1\n}  // d\n"},
+      {"sphere { // c\n radius 1 }//d", "sphere {  // c\n  radius 1\n}  //d\n"},
       {"sphere { /* a */ radius 1 }", "sphere { /* a */ radius 1 }\n"},
       {"/* a */ /* b */ sphere { }", "/* a */ /* b */ sphere { }\n"},
       {"sphere { }\n// below\n  // and below\ncube { }", "sphere { }\n// below\n// and below\ncube { }\n"},

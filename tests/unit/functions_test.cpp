@@ -25,9 +25,10 @@ using Numbers = std::vector<double>;
 // What a value holds, as `raytracer params` prints it: one number, or three.
 Numbers read_value(const std::string& text) {
   if (text.front() == '#') {
-    const Vector3d rgb = Vector3d(std::stoi(text.substr(1, 2), nullptr, 16), std::stoi(text.substr(3, 2), nullptr, 16),
-                                  std::stoi(text.substr(5, 2), nullptr, 16)) /
-                         255.0;
+    const Vector3d rgb =
+        Vector3d(std::stoi(text.substr(1, 2), nullptr, 16), std::stoi(text.substr(3, 2), nullptr, 16),
+                 std::stoi(text.substr(5, 2), nullptr, 16)) /
+        255.0;
     return {rgb.x, rgb.y, rgb.z};
   }
   Numbers numbers;
@@ -51,7 +52,8 @@ struct Row {
 
 LoadedScene load_lets(const std::vector<std::string>& expressions) {
   std::string text;
-  for (std::size_t i = 0; i < expressions.size(); ++i) text += "let v" + std::to_string(i) + " = " + expressions[i] + "\n";
+  for (std::size_t i = 0; i < expressions.size(); ++i)
+    text += "let v" + std::to_string(i) + " = " + expressions[i] + "\n";
   return load_scene_text(text + "sphere { }\n", "functions.txt");
 }
 
@@ -214,7 +216,8 @@ TEST_CASE("functions have their known values", "[functions]") { check_values(kno
 
 TEST_CASE("each function has known values", "[functions]") {
   std::set<std::string> tried;
-  for (const Row& row : known_values()) tried.insert(std::string(row.call).substr(0, std::string(row.call).find('(')));
+  for (const Row& row : known_values())
+    tried.insert(std::string(row.call).substr(0, std::string(row.call).find('(')));
   for (const FunctionRow& function : all_functions()) {
     INFO(function.name);
     REQUIRE(tried.contains(std::string(function.name)));
@@ -227,29 +230,33 @@ TEST_CASE("each function has known values", "[functions]") {
 }
 
 TEST_CASE("quarter turns are exact", "[functions]") {
-  const LoadedScene scene = load_lets({"sin(180) == 0 and sin(-360) == 0 and sin(90) == 1 and sin(270) == -1 and sin(1e9 * 360) == 0",
-                                       "cos(90) == 0 and cos(-90) == 0 and cos(270) == 0 and cos(180) == -1 and cos(450) == 0"});
+  const LoadedScene scene = load_lets(
+      {"sin(180) == 0 and sin(-360) == 0 and sin(90) == 1 and sin(270) == -1 and sin(1e9 * 360) == 0",
+       "cos(90) == 0 and cos(-90) == 0 and cos(270) == 0 and cos(180) == -1 and cos(450) == 0"});
   REQUIRE(scene.ok());
   REQUIRE(scene.parameters[0].value == "true");
   REQUIRE(scene.parameters[1].value == "true");
 }
 
 TEST_CASE("what a function can't take is an error at the call", "[functions]") {
-  // The call stands from column 9 to its end; each must be refused there, with one message that names the function.
+  // The call stands from column 9 to its end; each must be refused there, with one message that names the
+  // function.
   const char* const wrong[] = {
-      "sin(true)", "sin((1, 2, 3))", "sin(\"a\")", "cos(red)", "tan(90)", "tan(-90)", "tan(270)", "tan(\"x\")", "asin(1.001)",
-      "asin(-2)", "asin((1, 0, 0))", "acos(-1.001)", "acos(false)", "atan2((1, 2, 3), 1)", "atan2(1, \"a\")", "sqrt(-1)",
-      "sqrt((1, 4, 9))", "exp(1000)", "exp(true)", "log(0)", "log(-1)", "log(\"1\")", "pow(0, -1)", "pow(-8, 0.5)",
-      "pow(10, 400)", "pow((1, 2, 3), 2)", "pow(2, \"a\")", "abs(true)", "abs(\"a\")", "min(1, true)", "min(\"a\", 1)",
-      "max(1, 2, \"a\")", "floor(true)", "ceil(\"1\")", "round(false)", "sign(\"-\")", "mod(1, 0)", "mod(1, (1, 0, 1))",
+      "sin(true)", "sin((1, 2, 3))", "sin(\"a\")", "cos(red)", "tan(90)", "tan(-90)", "tan(270)",
+      "tan(\"x\")", "asin(1.001)", "asin(-2)", "asin((1, 0, 0))", "acos(-1.001)", "acos(false)",
+      "atan2((1, 2, 3), 1)", "atan2(1, \"a\")", "sqrt(-1)", "sqrt((1, 4, 9))", "exp(1000)", "exp(true)",
+      "log(0)", "log(-1)", "log(\"1\")", "pow(0, -1)", "pow(-8, 0.5)", "pow(10, 400)", "pow((1, 2, 3), 2)",
+      "pow(2, \"a\")", "abs(true)", "abs(\"a\")", "min(1, true)", "min(\"a\", 1)", "max(1, 2, \"a\")",
+      "floor(true)", "ceil(\"1\")", "round(false)", "sign(\"-\")", "mod(1, 0)", "mod(1, (1, 0, 1))",
       "mod((1, 2, 3), 0)", "clamp(1, \"a\", 2)", "mix(true, false, 0.5)", "smoothstep(1, 1, 2)",
-      "smoothstep((1, 1, 1), (1, 1, 1), 2)", "smoothstep((0, 0, 0), (1, 0, 1), 0.5)", "smoothstep((0, 1, 0), 1, 0.5)",
-      "length(1)", "length(true)", "normalize((0, 0, 0))", "normalize(1)", "dot(1, 2)", "dot((1, 2, 3), 4)", "cross((1, 2, 3), 1)",
-      "cross(\"a\", (1, 2, 3))", "random(true)", "random(1, \"a\")", "noise(\"a\")", "noise(true)", "hsv(0, 1.1, 1)",
-      "hsv(0, 1, -0.1)", "hsv(red, 1, 1)", "kelvin(799)", "kelvin(40001)", "kelvin(-1)", "kelvin(\"warm\")", "kelvin((1, 2, 3))",
+      "smoothstep((1, 1, 1), (1, 1, 1), 2)", "smoothstep((0, 0, 0), (1, 0, 1), 0.5)",
+      "smoothstep((0, 1, 0), 1, 0.5)", "length(1)", "length(true)", "normalize((0, 0, 0))", "normalize(1)",
+      "dot(1, 2)", "dot((1, 2, 3), 4)", "cross((1, 2, 3), 1)", "cross(\"a\", (1, 2, 3))", "random(true)",
+      "random(1, \"a\")", "noise(\"a\")", "noise(true)", "hsv(0, 1.1, 1)", "hsv(0, 1, -0.1)",
+      "hsv(red, 1, 1)", "kelvin(799)", "kelvin(40001)", "kelvin(-1)", "kelvin(\"warm\")", "kelvin((1, 2, 3))",
       // arity
-      "sin()", "sin(1, 2)", "atan2(1)", "min(1)", "max()", "clamp(1, 2)", "clamp(1, 2, 3, 4)", "mix(1, 2)", "smoothstep(1, 2)",
-      "cross((1, 2, 3))", "random()", "noise()", "noise(1, 2)", "hsv(1, 1)", "kelvin()"};
+      "sin()", "sin(1, 2)", "atan2(1)", "min(1)", "max()", "clamp(1, 2)", "clamp(1, 2, 3, 4)", "mix(1, 2)",
+      "smoothstep(1, 2)", "cross((1, 2, 3))", "random()", "noise()", "noise(1, 2)", "hsv(1, 1)", "kelvin()"};
   for (const char* call : wrong) {
     const LoadedScene scene = load_lets({call});
     INFO(call);
@@ -268,8 +275,9 @@ TEST_CASE("what a function can't take is an error at the call", "[functions]") {
 }
 
 TEST_CASE("arguments of the wrong type are told as such, not as what they would compute", "[functions]") {
-  for (const char* call : {"mod(1, \"a\")", "mod(1, false)", "mod(1, true)", "mod(\"a\", 0)", "smoothstep(\"a\", \"b\", 1)",
-                           "smoothstep(false, false, 1)", "smoothstep(true, true, 1)"}) {
+  for (const char* call :
+       {"mod(1, \"a\")", "mod(1, false)", "mod(1, true)", "mod(\"a\", 0)", "smoothstep(\"a\", \"b\", 1)",
+        "smoothstep(false, false, 1)", "smoothstep(true, true, 1)"}) {
     const LoadedScene scene = load_lets({call});
     INFO(call);
     REQUIRE(scene.diagnostics.size() == 1);
@@ -311,20 +319,22 @@ TEST_CASE("random numbers are the same for ever", "[functions]") {
   }
 }
 
-TEST_CASE("random numbers depend on each seed, their order and number, and not on the sign of 0", "[functions]") {
+TEST_CASE("random numbers depend on each seed, their order and number, and not on the sign of 0",
+          "[functions]") {
   const Numbers minus_zero = {-0.0}, zero = {0.0};
   REQUIRE(random_number(minus_zero) == random_number(zero));
   std::set<double> different;
-  const std::vector<Numbers> seeds = {{},        {0},       {0, 0},    {0, 0, 0}, {1, 2, 3}, {1, 3, 2},    {2, 1, 3},
-                                      {2, 3, 1}, {3, 1, 2}, {3, 2, 1}, {1, 2},    {2, 1},    {1, 2, 3, 0}, {0, 1, 2, 3},
-                                      {1},       {-1},      {1e-300},  {1e300},   {0.1},     {0.1 + 1e-16}};
+  const std::vector<Numbers> seeds = {{},        {0},       {0, 0},       {0, 0, 0},    {1, 2, 3},
+                                      {1, 3, 2}, {2, 1, 3}, {2, 3, 1},    {3, 1, 2},    {3, 2, 1},
+                                      {1, 2},    {2, 1},    {1, 2, 3, 0}, {0, 1, 2, 3}, {1},
+                                      {-1},      {1e-300},  {1e300},      {0.1},        {0.1 + 1e-16}};
   for (const Numbers& row : seeds) different.insert(random_number(row));
   REQUIRE(different.size() == seeds.size());
 }
 
 TEST_CASE("random numbers are spread evenly in [0, 1)", "[functions]") {
-  // Chi-square over 100 boxes: with 99 degrees of freedom it stays below 160 but in one of 10,000 trials; the numbers never
-  // change, so this passes always or never.
+  // Chi-square over 100 boxes: with 99 degrees of freedom it stays below 160 but in one of 10,000 trials; the
+  // numbers never change, so this passes always or never.
   constexpr int kBoxes = 100, kCount = 100'000;
   const auto chi_square = [&](auto seeds_of) {
     std::vector<int> boxes(kBoxes);
@@ -339,7 +349,9 @@ TEST_CASE("random numbers are spread evenly in [0, 1)", "[functions]") {
   };
   CHECK(chi_square([](int i) { return Numbers{static_cast<double>(i)}; }) < 160);
   CHECK(chi_square([](int i) { return Numbers{i * 0.1}; }) < 160);
-  CHECK(chi_square([](int i) { return Numbers{static_cast<double>(i % 317), static_cast<double>(i / 317)}; }) < 160);
+  CHECK(chi_square([](int i) {
+          return Numbers{static_cast<double>(i % 317), static_cast<double>(i / 317)};
+        }) < 160);
   CHECK(chi_square([](int i) { return Numbers{7, static_cast<double>(-i), 3}; }) < 160);
 }
 
@@ -402,13 +414,15 @@ TEST_CASE("noise is smooth, across the lattice too", "[functions]") {
   std::mt19937 dice(2);
   for (int i = 0; i < 2000; ++i) {
     Vector3d p = Vector3d(dice(), dice(), dice()) / 4294967296.0 * 20.0 - 10.0;
-    if (i % 2 == 0) p[i / 2 % 3] = std::round(p[i / 2 % 3]) - kStep / 2;  // the step goes through a face of the lattice
+    if (i % 2 == 0)
+      p[i / 2 % 3] = std::round(p[i / 2 % 3]) - kStep / 2;  // the step goes through a face of the lattice
     for (int axis = 0; axis < 3; ++axis) {
       Vector3d q = p, r = p;
       q[axis] += kStep;
       r[axis] += 2 * kStep;
-      const double first = gradient_noise(q) - gradient_noise(p), second = gradient_noise(r) - gradient_noise(q);
-      REQUIRE(std::abs(first) < 4 * kStep);                  // continuous
+      const double first = gradient_noise(q) - gradient_noise(p),
+                   second = gradient_noise(r) - gradient_noise(q);
+      REQUIRE(std::abs(first) < 4 * kStep);                            // continuous
       REQUIRE(std::abs(second - first) < 40 * kStep * kStep + 1e-13);  // and so is its slope
     }
   }
@@ -431,12 +445,15 @@ TEST_CASE("black bodies go from orange over white to blue", "[functions]") {
   for (const double x : white) REQUIRE((x > 0.92 && x <= 1));
   REQUIRE(blue[2] == 1);
   REQUIRE((blue[0] < blue[1] && blue[1] < blue[2] && blue[0] > 0.5));
-  REQUIRE((lamp[0] == 1 && lamp[1] > orange[1] && lamp[1] < white[1] && lamp[2] > orange[2] && lamp[2] < lamp[1]));
+  REQUIRE((lamp[0] == 1 && lamp[1] > orange[1] && lamp[1] < white[1] && lamp[2] > orange[2] &&
+           lamp[2] < lamp[1]));
 }
 
-TEST_CASE("the largest component of a black body's colour is 1 and it turns bluer all the way", "[functions]") {
+TEST_CASE("the largest component of a black body's colour is 1 and it turns bluer all the way",
+          "[functions]") {
   std::vector<std::string> calls;
-  for (int kelvin = 800; kelvin <= 40000; kelvin += 400) calls.push_back("kelvin(" + std::to_string(kelvin) + ")");
+  for (int kelvin = 800; kelvin <= 40000; kelvin += 400)
+    calls.push_back("kelvin(" + std::to_string(kelvin) + ")");
   const LoadedScene scene = load_lets(calls);
   REQUIRE(scene.ok());
   double ratio_before = -1;

@@ -1,0 +1,82 @@
+// Shapes that stand in many places.
+#include <cmath>
+#include <utility>
+
+#include "core/numeric.hpp"
+#include "raytracer/error.hpp"
+#include "raytracer/scene.hpp"
+#include "scene/accelerator.hpp"
+
+namespace raytracer {
+namespace {
+
+// The largest length of a row of m: how far it can stretch a length.
+double stretch(const glm::dmat3& m) {
+  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+}  // namespace
+
+SharedShapes::SharedShapes(std::vector<std::unique_ptr<Shape>> shapes, std::vector<std::uint32_t> material_of,
+                           std::vector<Material> materials)
+    : shapes_(std::move(shapes)), material_of_(std::move(material_of)), materials_(std::move(materials)) {
+  if (material_of_.size() != shapes_.size()) {
+    throw Error(ErrorKind::kUsage, "shared shapes need one material index per shape");
+  }
+  for (const std::uint32_t index : material_of_) {
+    if (index >= materials_.size()) throw Error(ErrorKind::kUsage, "a shape's material does not exist");
+  }
+  for (const auto& shape : shapes_) bounds_.extend(shape->bounds());
+  if (!bounds_.is_empty() && !bounds_.is_finite()) throw Error(ErrorKind::kUsage, "an endless shape can't be shared");
+  accelerator_ = std::make_unique<Accelerator>(shapes_);
+}
+
+SharedShapes::~SharedShapes() = default;
+
+Box3f Instance::bounds(const Box3f& own) const {
+  Box3f box;
+  if (own.is_empty()) return box;
+  const Vector3d middle = 0.5 * (Vector3d(own.lower) + Vector3d(own.upper));
+  const Vector3d half = 0.5 * (Vector3d(own.upper) - Vector3d(own.lower));
+  const glm::dmat3 m(linear);
+  const Vector3d center = m * middle + Vector3d(translation);
+  const glm::dmat3 size = {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
+  const Vector3d reach = size * half;
+  for (int i = 0; i < 3; ++i) {
+    box.lower[i] = float_below(center[i] - reach[i]);
+    box.upper[i] = float_above(center[i] + reach[i]);
+  }
+  return box;
+}
+
+SurfacePoint Scene::instance_surface_at(const Ray3f& ray, const Hit& hit) const {
+  const Instance& instance = description_.instances[hit.instance];
+  const Shape& shape = description_.shared[instance.shared]->shape(hit.shape);
+  if (instance.is_identity()) return shape.surface_at(ray, hit);
+  const glm::dmat3 to_world(instance.linear);
+  const glm::dmat3 to_own = glm::inverse(to_world);
+  const Vector3d translation(instance.translation);
+  Ray3f own_ray = ray;
+  own_ray.origin = Vector3f(to_own * (Vector3d(ray.origin) - translation));
+  own_ray.direction = Vector3f(to_own * Vector3d(ray.direction));
+  const SurfacePoint own = shape.surface_at(own_ray, hit);
+
+  SurfacePoint point = own;
+  const Vector3d position = to_world * Vector3d(own.position) + translation;
+  point.position = Vector3f(position);
+  const glm::dmat3 normals = glm::transpose(to_own);
+  point.normal = Vector3f(glm::normalize(normals * Vector3d(own.normal)));
+  point.shading_normal = Vector3f(glm::normalize(normals * Vector3d(own.shading_normal)));
+  // Besides the shape's own error: this rounding, and that of a further ray whose origin Embree takes into the shapes' own
+  // space in single precision, by a matrix that it has inverted in single precision.
+  const double own_reach = glm::length(to_own[0]) * std::abs(position.x) + glm::length(to_own[1]) * std::abs(position.y) +
+                           glm::length(to_own[2]) * std::abs(position.z) + glm::length(to_own * translation);
+  const double there_and_back = stretch(to_world) * own_reach;
+  constexpr double kRoundings = 8;
+  point.position_error =
+      float_above(stretch(to_world) * own.position_error +
+                  kRoundings * kFloatRounding * (there_and_back + glm::length(position) + glm::length(translation)));
+  return point;
+}
+
+}  // namespace raytracer
