@@ -45,7 +45,8 @@ int run_fmt(const Options& options) {
   }
   int worst = 0;
   for (const std::string& path : options.operands) {
-    if (options.in_place && path == "-") throw Error(ErrorKind::kUsage, "standard input is no file to change in place");
+    if (options.in_place && path == "-")
+      throw Error(ErrorKind::kUsage, "standard input is no file to change in place");
     worst = std::max(worst, format_file(path, options));
   }
   return worst;

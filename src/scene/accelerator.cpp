@@ -214,7 +214,7 @@ std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hi
 std::uint32_t Accelerator::is_occluded(std::span<const Ray3f> rays, Coherence coherence) const {
   std::uint32_t answer = 0;
   if (tree_->scene != nullptr) {
-    RTCRay16 query;
+    RTCRay16 query{};
     for (std::size_t i = 0; i < rays.size(); ++i) set_lane(query, i, rays[i]);
     embree::occluded(ValidLanes(query, rays.size()).lane, tree_->scene, query, coherence);
     for (std::size_t i = 0; i < rays.size(); ++i) answer |= std::uint32_t{query.tfar[i] < 0} << i;

@@ -7,6 +7,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <cstring>
+
 #include "raytracer/scene.hpp"
 
 namespace raytracer::embree {
@@ -45,9 +47,33 @@ inline void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays, Coher
   RTCIntersectContext with = context(coherence);
   rtcIntersect16(valid, scene, &with, &rays);
 }
+// A field of eight rays of sixteen.
+template <class T>
+void copy_eight(T* to, const T* from) {
+  std::memcpy(to, from, 8 * sizeof(T));
+}
 inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays, Coherence coherence) {
   RTCIntersectContext with = context(coherence);
-  rtcOccluded16(valid, scene, &with, &rays);
+  if (coherence == Coherence::kIncoherent) return rtcOccluded16(valid, scene, &with, &rays);
+  // Coherent rays go by eights: the code for sixteen, as Debian 12 has compiled it for AVX-512 (Embree 3.13.5), writes a
+  // mask of 16 bits to the stack and reads 64 of them back, and does not return if the others are not 0.
+  for (int first = 0; first < 16; first += 8) {
+    RTCRay8 eight;
+    copy_eight(eight.org_x, rays.org_x + first);
+    copy_eight(eight.org_y, rays.org_y + first);
+    copy_eight(eight.org_z, rays.org_z + first);
+    copy_eight(eight.tnear, rays.tnear + first);
+    copy_eight(eight.dir_x, rays.dir_x + first);
+    copy_eight(eight.dir_y, rays.dir_y + first);
+    copy_eight(eight.dir_z, rays.dir_z + first);
+    copy_eight(eight.time, rays.time + first);
+    copy_eight(eight.tfar, rays.tfar + first);
+    copy_eight(eight.mask, rays.mask + first);
+    copy_eight(eight.id, rays.id + first);
+    copy_eight(eight.flags, rays.flags + first);
+    rtcOccluded8(valid + first, scene, &with, &eight);
+    copy_eight(rays.tfar + first, eight.tfar);
+  }
 }
 #endif
 

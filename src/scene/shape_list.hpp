@@ -25,6 +25,7 @@ class ShapeList {
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       if (!shapes_[i]->is_hit(rest, hit)) continue;
       hit.shape = indices_[i];
+      hit.instance = kNoInstance;
       rest.t_max = hit.t;
       found = true;
     }

@@ -44,7 +44,7 @@ Builder::Builder(Files& files, const Limits& limits, const Moment& moment, KeptS
       evaluator_(files.names(), moment, budget_, diagnostics),
       store_(kept) {
   draft_.scene.materials.push_back(Material{});  // of shapes that name none
-  material_uses_.push_back({{}, true, false});
+  material_uses_.push_back({{}, true, false, 0});
 }
 
 void Builder::build(const SyntaxTree& tree) {
@@ -260,7 +260,7 @@ void Builder::build_material(const KindRow& row, const BlockNode& block, std::st
   materials_.push(id, index, place);
   material_uses_.resize(draft_.scene.materials.size());
   const bool sound = diagnostics_.error_count() == errors_before;
-  if (sound) material_uses_[index] = {place, false, context.depends_on_time()};
+  if (sound) material_uses_[index] = {place, false, context.depends_on_time(), id};
 }
 
 std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& block, const Surroundings& around) {
@@ -269,8 +269,8 @@ std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& blo
   BlockContext context(*this, *row, block, around, {});
   last_material_.reset();
   row->build(context);
-  material_uses_.resize(draft_.scene.materials.size(), {{}, true, false});
-  if (last_material_) material_uses_[*last_material_] = {{}, true, context.depends_on_time()};
+  material_uses_.resize(draft_.scene.materials.size(), {{}, true, false, 0});
+  if (last_material_) material_uses_[*last_material_] = {{}, true, context.depends_on_time(), 0};
   return last_material_;
 }
 
@@ -342,7 +342,7 @@ void Builder::warn_of_unused_names(const SyntaxTree& main) {
   for (const MaterialUse& use : material_uses_) {
     // A library of materials that is included is not meant to be used whole.
     if (use.used || use.place.source != main.source) continue;
-    diagnostics_.warning(use.place, fmt::format("'{}' is never used", use.place.text()));
+    diagnostics_.warning(use.place, fmt::format("'material {}' is never used", files_.names().text(use.name)));
   }
   for (const auto& definition : top_definitions_) {
     if (definition->source != main.source || used_definitions_.contains(definition->node)) continue;

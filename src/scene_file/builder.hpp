@@ -170,7 +170,7 @@ class Builder {
   void store_shapes() { store_.move_into(draft_.scene, evaluator_.uses_time()); }
 
   SceneDraft& draft() { return draft_; }
-  std::uint64_t shapes_made() const { return shapes_made_; }
+  std::uint64_t shapes_made() const { return shapes_made_ - lights_made_; }
   Diagnostics& diagnostics() { return diagnostics_; }
   Evaluator& evaluator() { return evaluator_; }
   /// About materials, lets and definitions of `main` that nothing uses.
@@ -203,6 +203,7 @@ class Builder {
     Place place;  // of the name; no source for unnamed ones
     bool used = false;
     bool depends_on_time = false;
+    NameId name = 0;
   };
 
   void build_items(std::span<const ItemNode> items, const Surroundings& around);

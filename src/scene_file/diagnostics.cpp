@@ -35,15 +35,16 @@ Diagnostic make_diagnostic(Severity severity, const Place& place, std::string me
   return d;
 }
 
-// The lexer, the parser and the builder find mistakes in three passes; people read a file from the top. Files keep the
-// order in which they were first spoken of, and what concerns the scene as a whole comes last.
+// The lexer, the parser and the builder find mistakes in three passes; people read a file from the top. Files
+// keep the order in which they were first spoken of, and what concerns the scene as a whole comes last.
 void sort_by_place(std::vector<Diagnostic>& messages) {
   std::map<std::string, std::size_t> file_order;
   for (const Diagnostic& d : messages) file_order.try_emplace(d.file, file_order.size());
   const auto key = [&](const Diagnostic& d) {
     return std::tuple(d.line == 0, file_order[d.file], d.line, d.column);
   };
-  std::ranges::stable_sort(messages, [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+  std::ranges::stable_sort(messages,
+                           [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
 }
 
 }  // namespace
@@ -63,14 +64,16 @@ void Diagnostics::error(const Place& place, std::string message, std::string sug
   constexpr std::size_t kMostUses = 4;  // the innermost ones; deeper chains are recursions
   for (std::size_t i = 0; i < std::min(kMostUses, used_from_.size()); ++i) {
     if (used_from_[used_from_.size() - 1 - i].source == nullptr) continue;
-    d.notes.push_back(make_diagnostic(Severity::kError, used_from_[used_from_.size() - 1 - i], "used from here", {}));
+    d.notes.push_back(
+        make_diagnostic(Severity::kError, used_from_[used_from_.size() - 1 - i], "used from here", {}));
   }
   messages_.push_back(std::move(d));
 }
 
 void Diagnostics::warning(const Place& place, std::string message, std::string suggestion) {
-  messages_.push_back(
-      make_diagnostic(Severity::kWarning, place, std::move(message), std::move(suggestion)));
+  if (!warning_places_.emplace(place.source, place.span.begin, place.span.end).second) return;
+  if (++warnings_ > kMostWarnings) return;
+  messages_.push_back(make_diagnostic(Severity::kWarning, place, std::move(message), std::move(suggestion)));
 }
 
 void Diagnostics::warning(const std::string& file, std::string message, std::string suggestion) {
@@ -84,12 +87,15 @@ void Diagnostics::warning(const std::string& file, std::string message, std::str
 
 std::vector<Diagnostic> Diagnostics::take() {
   sort_by_place(messages_);
-  if (errors_ > kMostErrors) {
+  const auto add_rest = [&](Severity severity, std::size_t count, std::string_view what) {
     Diagnostic more;
+    more.severity = severity;
     more.file = messages_.back().file;
-    more.message = fmt::format("and {} more errors", errors_ - kMostErrors);
+    more.message = fmt::format("and {} more {}{}", count, what, count == 1 ? "" : "s");
     messages_.push_back(std::move(more));
-  }
+  };
+  if (warnings_ > kMostWarnings) add_rest(Severity::kWarning, warnings_ - kMostWarnings, "warning");
+  if (errors_ > kMostErrors) add_rest(Severity::kError, errors_ - kMostErrors, "error");
   return std::exchange(messages_, {});
 }
 

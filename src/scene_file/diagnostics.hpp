@@ -17,12 +17,12 @@ struct Note {
   std::string message;
 };
 
-/// The messages of one load. A place has one error at most: a slip inside a loop or a definition is one slip, however often it
-/// is run through. A scene can hold more mistakes than anybody reads: past kMostErrors they are only
-/// counted.
+/// The messages of one load. A place has one error and one warning at most: a slip inside a loop or a
+/// definition is one slip, however often it is run through. A scene can hold more mistakes than anybody
+/// reads: past kMostErrors, and kMostWarnings, they are only counted.
 class Diagnostics {
  public:
-  static constexpr std::size_t kMostErrors = 100;
+  static constexpr std::size_t kMostErrors = 100, kMostWarnings = 100;
 
   void error(const Place& place, std::string message, std::string suggestion = {},
              const std::vector<Note>& notes = {});
@@ -30,7 +30,8 @@ class Diagnostics {
   /// About the scene as a whole.
   void warning(const std::string& file, std::string message, std::string suggestion = {});
 
-  /// While one lives, every error names the place that its text was used from: an include, a use of a definition.
+  /// While one lives, every error names the place that its text was used from: an include, a use of a
+  /// definition.
   class UsedFrom {
    public:
     /// A place without a source is none.
@@ -54,15 +55,17 @@ class Diagnostics {
   std::size_t error_count() const { return errors_; }
   /// Errors that were dropped because their place had one.
   std::size_t repeated() const { return repeated_; }
-  /// The messages from the top of the text to its end, and how many more there were; leaves the collector empty.
+  /// The messages from the top of the text to its end, and how many more there were; leaves the collector
+  /// empty.
   std::vector<Diagnostic> take();
 
  private:
   std::vector<Diagnostic> messages_;
-  std::size_t errors_ = 0, repeated_ = 0;
+  std::size_t errors_ = 0, warnings_ = 0, repeated_ = 0;
   bool muted_ = false;
   std::vector<Place> used_from_;
-  std::set<std::tuple<const Source*, std::uint32_t, std::uint32_t>> error_places_;
+  using PlaceKey = std::tuple<const Source*, std::uint32_t, std::uint32_t>;
+  std::set<PlaceKey> error_places_, warning_places_;
 };
 
 }  // namespace raytracer::scene_file

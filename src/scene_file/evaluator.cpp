@@ -16,24 +16,56 @@ namespace {
 
 std::string_view symbol_of(Operation operation) {
   switch (operation) {
-    case Operation::kAdd: return "+";
-    case Operation::kSubtract: return "-";
-    case Operation::kMultiply: return "*";
-    case Operation::kDivide: return "/";
-    case Operation::kRemainder: return "%";
-    case Operation::kLess: return "<";
-    case Operation::kLessEqual: return "<=";
-    case Operation::kGreater: return ">";
-    case Operation::kGreaterEqual: return ">=";
-    case Operation::kEqual: return "==";
-    case Operation::kNotEqual: return "!=";
-    case Operation::kAnd: return "and";
-    case Operation::kOr: return "or";
-    default: return "?";
+    case Operation::kAdd:
+      return "+";
+    case Operation::kSubtract:
+      return "-";
+    case Operation::kMultiply:
+      return "*";
+    case Operation::kDivide:
+      return "/";
+    case Operation::kRemainder:
+      return "%";
+    case Operation::kLess:
+      return "<";
+    case Operation::kLessEqual:
+      return "<=";
+    case Operation::kGreater:
+      return ">";
+    case Operation::kGreaterEqual:
+      return ">=";
+    case Operation::kEqual:
+      return "==";
+    case Operation::kNotEqual:
+      return "!=";
+    case Operation::kAnd:
+      return "and";
+    case Operation::kOr:
+      return "or";
+    default:
+      return "?";
   }
 }
 
-bool has_zero(const Value& v) { return v.x() == 0 || (v.is_vector() && (v.vector.y == 0 || v.vector.z == 0)); }
+bool is_comparison(Operation operation) {
+  return operation >= Operation::kLess && operation <= Operation::kNotEqual;
+}
+
+// Whether an operator has its left side in arguments[0].
+bool is_link(Operation operation) {
+  return (operation >= Operation::kAdd && operation <= Operation::kOr) || operation == Operation::kMember;
+}
+
+// How other programs print what is no finite number.
+bool is_endless_or_undefined(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower == "nan" || lower == "inf" || lower == "infinity";
+}
+
+bool has_zero(const Value& v) {
+  return v.x() == 0 || (v.is_vector() && (v.vector.y == 0 || v.vector.z == 0));
+}
 
 }  // namespace
 
@@ -64,19 +96,23 @@ Value Evaluator::evaluate(const Expression& expression, const Source& source, co
 
 Value Evaluator::evaluate(const ValueNode& value, const Source& source, const Visibility& visibility) {
   switch (value.kind) {
-    case ValueKind::kNumber: return Value::number(value.number);
+    case ValueKind::kNumber:
+      return Value::number(value.number);
     case ValueKind::kString:
       return value.is_decoded ? Value::string(names_.text(value.name)) : literal_string(value.span, source);
-    case ValueKind::kColor: return Value::display_color(hexadecimal_color(source.text(value.span)));
-    case ValueKind::kExpression: return compute(*value.expression, {source, visibility});
+    case ValueKind::kColor:
+      return Value::display_color(hexadecimal_color(source.text(value.span)));
+    case ValueKind::kExpression:
+      return compute(*value.expression, {source, visibility});
     case ValueKind::kWord: {
       Expression name;
       name.operation = Operation::kName;
-      name.span = value.span;
+      name.span = name.token = value.span;
       name.name = value.name;
       return compute_name(name, {source, visibility});
     }
-    case ValueKind::kBad: break;
+    case ValueKind::kBad:
+      break;
   }
   return {};
 }
@@ -88,7 +124,8 @@ Value Evaluator::literal_string(const Span& span, const Source& source) {
 }
 
 bool Evaluator::is_bound(NameId name, const Visibility& visibility) const {
-  return bindings_.find(name, visibility) != Bindings<NamedValue>::npos || name == t_ || name == frame_ || name == pi_;
+  return bindings_.find(name, visibility) != Bindings<NamedValue>::npos || name == t_ || name == frame_ ||
+         name == pi_;
 }
 
 Value Evaluator::look_up(NameId name, const Visibility& visibility) {
@@ -127,34 +164,59 @@ std::string Evaluator::suggestion_for(std::string_view name, const Visibility& v
 Value Evaluator::compute(const Expression& e, const Scene& scene) {
   if (!budget_.take(1)) return {};
   switch (e.operation) {
-    case Operation::kUnknown: return {};
-    case Operation::kNumber: return Value::number(e.number);
-    case Operation::kString: return literal_string(e.span, scene.source);
-    case Operation::kColor: return Value::display_color(hexadecimal_color(scene.source.text(e.span)));
-    case Operation::kName: return compute_name(e, scene);
-    case Operation::kVector: return compute_vector(e, scene);
+    case Operation::kUnknown:
+      return {};
+    case Operation::kNumber:
+      return Value::number(e.number);
+    case Operation::kString:
+      return literal_string(e.token, scene.source);
+    case Operation::kColor:
+      return Value::display_color(hexadecimal_color(scene.source.text(e.token)));
+    case Operation::kName:
+      return compute_name(e, scene);
+    case Operation::kVector:
+      return compute_vector(e, scene);
     case Operation::kNegate:
-    case Operation::kPlus: return compute_sign(e, scene);
-    case Operation::kAdd:
-    case Operation::kSubtract:
-    case Operation::kMultiply:
-    case Operation::kDivide:
-    case Operation::kRemainder:
-    case Operation::kPower: return compute_arithmetic(e, scene);
-    case Operation::kLess:
-    case Operation::kLessEqual:
-    case Operation::kGreater:
-    case Operation::kGreaterEqual:
-    case Operation::kEqual:
-    case Operation::kNotEqual: return compute_comparison(e, scene);
+    case Operation::kPlus:
+      return compute_sign(e, scene);
     case Operation::kNot:
-    case Operation::kAnd:
-    case Operation::kOr: return compute_logic(e, scene);
-    case Operation::kChoose: return compute_choice(e, scene);
-    case Operation::kMember: return compute_member(e, scene);
-    case Operation::kCall: return compute_call(e, scene);
+      return compute_not(e, scene);
+    case Operation::kChoose:
+      return compute_choice(e, scene);
+    case Operation::kCall:
+      return compute_call(e, scene);
+    default:
+      return compute_chain(e, scene);
   }
-  return {};
+}
+
+// Operators that are read from left to right make trees as deep as the chain is long: `1 + 1 + …`. Pieces of
+// it are computed in a loop, so that the recursion stays shallow.
+Value Evaluator::compute_chain(const Expression& e, const Scene& scene) {
+  std::array<const Expression*, 16> links;
+  std::size_t count = 0;
+  const Expression* first = &e;
+  while (count < links.size() && is_link(first->operation)) {
+    links[count++] = first;
+    first = first->arguments[0];
+  }
+  Value value = compute(*first, scene);
+  while (count > 0) {
+    const Expression* link = links[--count];
+    if (count > 0 && !budget_.take(1)) return {};  // the last one's step was taken by compute()
+    value = compute_link(*link, value, scene);
+  }
+  return value;
+}
+
+// An operator whose left side is known already.
+Value Evaluator::compute_link(const Expression& e, const Value& left, const Scene& scene) {
+  if (e.operation == Operation::kMember) return compute_member(e, left, scene);
+  if (e.operation == Operation::kAnd || e.operation == Operation::kOr) return compute_logic(e, left, scene);
+  const Value right = compute(*e.arguments[1], scene);
+  if (!left.is_known() || !right.is_known()) return {};
+  return is_comparison(e.operation) ? compute_comparison(e, left, right, scene)
+                                    : compute_arithmetic(e, left, right, scene);
 }
 
 Value Evaluator::compute_name(const Expression& e, const Scene& scene) {
@@ -163,11 +225,17 @@ Value Evaluator::compute_name(const Expression& e, const Scene& scene) {
   const Value value = look_up(e.name, scene.visibility);
   if (value.is_known()) return value;
   const std::string_view name = names_.text(e.name);
-  if (find_function(name) != nullptr) {
-    return fail(e, scene, fmt::format("'{}' is a function", name),
-                fmt::format("{}({})", name, find_function(name)->parameters));
+  const Place place{&scene.source, e.token};
+  if (const FunctionRow* function = find_function(name)) {
+    diagnostics_.error(place, fmt::format("'{}' is a function", name),
+                       fmt::format("{}({})", name, function->parameters));
+  } else if (is_endless_or_undefined(name)) {
+    diagnostics_.error(place, fmt::format("'{}' is not a number", name),
+                       "numbers look like 1, -0.5 or 1.5e-3");
+  } else {
+    diagnostics_.error(place, fmt::format("there is no '{}'", name), suggestion_for(name, scene.visibility));
   }
-  return fail(e, scene, fmt::format("there is no '{}'", name), suggestion_for(name, scene.visibility));
+  return {};
 }
 
 Value Evaluator::compute_vector(const Expression& e, const Scene& scene) {
@@ -192,7 +260,8 @@ Value Evaluator::checked(Value value, const Expression& e, const Scene& scene) {
 Value Evaluator::compute_sign(const Expression& e, const Scene& scene) {
   Value value = compute(*e.arguments[0], scene);
   if (!value.is_known()) return {};
-  if (!value.is_number() && !value.is_vector()) return wrong_type(*e.arguments[0], value, "a number or a vector", scene);
+  if (!value.is_number() && !value.is_vector())
+    return wrong_type(*e.arguments[0], value, "a number or a vector", scene);
   if (e.operation == Operation::kNegate) {
     value.vector = -value.vector;
     if (value.is_vector()) value.type = ValueType::kVector;
@@ -201,10 +270,7 @@ Value Evaluator::compute_sign(const Expression& e, const Scene& scene) {
   return value;
 }
 
-Value Evaluator::compute_arithmetic(const Expression& e, const Scene& scene) {
-  const Value a = compute(*e.arguments[0], scene);
-  const Value b = compute(*e.arguments[1], scene);
-  if (!a.is_known() || !b.is_known()) return {};
+Value Evaluator::compute_arithmetic(const Expression& e, const Value& a, const Value& b, const Scene& scene) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Value& value = i == 0 ? a : b;
     if (!value.is_number() && !value.is_vector()) {
@@ -215,14 +281,16 @@ Value Evaluator::compute_arithmetic(const Expression& e, const Scene& scene) {
   const bool divides = e.operation == Operation::kDivide || e.operation == Operation::kRemainder;
   if (divides && has_zero(b)) {
     const bool is_literal = e.arguments[1]->operation == Operation::kNumber;
-    return fail(e, scene, "division by zero",
-                is_literal ? std::string() : fmt::format("'{}' is 0", scene.source.text(e.arguments[1]->span)));
+    return fail(
+        e, scene, "division by zero",
+        is_literal ? std::string() : fmt::format("'{}' is 0", scene.source.text(e.arguments[1]->span)));
   }
   const bool adds = e.operation == Operation::kAdd || e.operation == Operation::kSubtract;
   if (adds && a.is_number() != b.is_number()) {
-    return fail(e, scene,
-                fmt::format("'{}' between {} and {}", symbol_of(e.operation), describe(a.type), describe(b.type)),
-                "a number for each component: (v + (1, 1, 1))");
+    return fail(
+        e, scene,
+        fmt::format("'{}' between {} and {}", symbol_of(e.operation), describe(a.type), describe(b.type)),
+        "a number for each component: (v + (1, 1, 1))");
   }
   const bool is_vector = a.is_vector() || b.is_vector();
   const Vector3d x = a.is_vector() || !is_vector ? a.vector : Vector3d(a.x());
@@ -231,17 +299,28 @@ Value Evaluator::compute_arithmetic(const Expression& e, const Scene& scene) {
   result.depends_on_time = a.depends_on_time || b.depends_on_time;
   for (int i = 0; i < (is_vector ? 3 : 1); ++i) {
     switch (e.operation) {
-      case Operation::kAdd: result.vector[i] = x[i] + y[i]; break;
-      case Operation::kSubtract: result.vector[i] = x[i] - y[i]; break;
-      case Operation::kMultiply: result.vector[i] = x[i] * y[i]; break;
-      case Operation::kDivide: result.vector[i] = x[i] / y[i]; break;
-      default: result.vector[i] = std::fmod(x[i], y[i]); break;
+      case Operation::kAdd:
+        result.vector[i] = x[i] + y[i];
+        break;
+      case Operation::kSubtract:
+        result.vector[i] = x[i] - y[i];
+        break;
+      case Operation::kMultiply:
+        result.vector[i] = x[i] * y[i];
+        break;
+      case Operation::kDivide:
+        result.vector[i] = x[i] / y[i];
+        break;
+      default:
+        result.vector[i] = std::fmod(x[i], y[i]);
+        break;
     }
   }
   return checked(result, e, scene);
 }
 
-Value Evaluator::compute_power(const Expression& e, const Value& base, const Value& exponent, const Scene& scene) {
+Value Evaluator::compute_power(const Expression& e, const Value& base, const Value& exponent,
+                               const Scene& scene) {
   if (!base.is_number()) return wrong_type(*e.arguments[0], base, "a number", scene);
   if (!exponent.is_number()) return wrong_type(*e.arguments[1], exponent, "a number", scene);
   if (base.x() == 0 && exponent.x() < 0) return fail(e, scene, "division by zero", "0 to a negative power");
@@ -254,10 +333,7 @@ Value Evaluator::compute_power(const Expression& e, const Value& base, const Val
   return checked(result, e, scene);
 }
 
-Value Evaluator::compute_comparison(const Expression& e, const Scene& scene) {
-  const Value a = compute(*e.arguments[0], scene);
-  const Value b = compute(*e.arguments[1], scene);
-  if (!a.is_known() || !b.is_known()) return {};
+Value Evaluator::compute_comparison(const Expression& e, const Value& a, const Value& b, const Scene& scene) {
   bool outcome = false;
   if (e.operation == Operation::kEqual || e.operation == Operation::kNotEqual) {
     if (a.type != b.type && !(a.is_vector() && b.is_vector())) {
@@ -279,21 +355,25 @@ Value Evaluator::compute_comparison(const Expression& e, const Scene& scene) {
   return result;
 }
 
-// `and` and `or` look at their right side only where the left one leaves it open.
-Value Evaluator::compute_logic(const Expression& e, const Scene& scene) {
-  Value result;
-  for (const Expression* argument : e.arguments) {
-    const Value value = compute(*argument, scene);
-    if (!value.is_known()) return {};
-    if (!value.is_boolean()) return wrong_type(*argument, value, "true or false", scene);
-    const bool depends = result.depends_on_time || value.depends_on_time;
-    result = Value::boolean(e.operation == Operation::kNot ? !value.is_true() : value.is_true());
-    result.depends_on_time = depends;
-    const bool settled = (e.operation == Operation::kAnd && !value.is_true()) ||
-                         (e.operation == Operation::kOr && value.is_true());
-    if (settled) break;
-  }
+Value Evaluator::compute_not(const Expression& e, const Scene& scene) {
+  const Value value = compute(*e.arguments[0], scene);
+  if (!value.is_known()) return {};
+  if (!value.is_boolean()) return wrong_type(*e.arguments[0], value, "true or false", scene);
+  Value result = Value::boolean(!value.is_true());
+  result.depends_on_time = value.depends_on_time;
   return result;
+}
+
+// `and` and `or` look at their right side only where the left one leaves it open.
+Value Evaluator::compute_logic(const Expression& e, const Value& left, const Scene& scene) {
+  if (!left.is_known()) return {};
+  if (!left.is_boolean()) return wrong_type(*e.arguments[0], left, "true or false", scene);
+  if (left.is_true() == (e.operation == Operation::kOr)) return left;
+  Value right = compute(*e.arguments[1], scene);
+  if (!right.is_known()) return {};
+  if (!right.is_boolean()) return wrong_type(*e.arguments[1], right, "true or false", scene);
+  right.depends_on_time = right.depends_on_time || left.depends_on_time;
+  return right;
 }
 
 Value Evaluator::compute_choice(const Expression& e, const Scene& scene) {
@@ -305,8 +385,7 @@ Value Evaluator::compute_choice(const Expression& e, const Scene& scene) {
   return result;
 }
 
-Value Evaluator::compute_member(const Expression& e, const Scene& scene) {
-  const Value value = compute(*e.arguments[0], scene);
+Value Evaluator::compute_member(const Expression& e, const Value& value, const Scene& scene) {
   if (!value.is_known()) return {};
   if (!value.is_vector()) return wrong_type(*e.arguments[0], value, "a vector", scene);
   Value result = Value::number(value.vector[static_cast<int>(e.number)]);

@@ -27,8 +27,8 @@ struct Moment {
   int frame = 1;
 };
 
-/// The work that evaluation may take: nodes of expressions, items, turns. Steps and not seconds: a scene is valid on every
-/// machine or on none.
+/// The work that evaluation may take: nodes of expressions, items, turns. Steps and not seconds: a scene is
+/// valid on every machine or on none.
 class Budget {
  public:
   explicit Budget(std::uint64_t steps) : steps_left_(steps) {}
@@ -52,8 +52,8 @@ class Evaluator {
  public:
   Evaluator(Names& names, const Moment& moment, Budget& budget, Diagnostics& diagnostics);
 
-  /// The value of an expression of `source`, with the names that `visibility` shows. What is wrong is reported and gives an
-  /// unknown value.
+  /// The value of an expression of `source`, with the names that `visibility` shows. What is wrong is
+  /// reported and gives an unknown value.
   Value evaluate(const Expression& expression, const Source& source, const Visibility& visibility);
   Value evaluate(const ValueNode& value, const Source& source, const Visibility& visibility);
   /// What a bare word stands for; unknown, without a message, where it stands for nothing.
@@ -77,20 +77,24 @@ class Evaluator {
   };
 
   Value compute(const Expression& e, const Scene& scene);
+  Value compute_chain(const Expression& e, const Scene& scene);
+  Value compute_link(const Expression& e, const Value& left, const Scene& scene);
   Value compute_name(const Expression& e, const Scene& scene);
   Value compute_vector(const Expression& e, const Scene& scene);
   Value compute_sign(const Expression& e, const Scene& scene);
-  Value compute_arithmetic(const Expression& e, const Scene& scene);
+  Value compute_arithmetic(const Expression& e, const Value& a, const Value& b, const Scene& scene);
   Value compute_power(const Expression& e, const Value& base, const Value& exponent, const Scene& scene);
-  Value compute_comparison(const Expression& e, const Scene& scene);
-  Value compute_logic(const Expression& e, const Scene& scene);
+  Value compute_comparison(const Expression& e, const Value& a, const Value& b, const Scene& scene);
+  Value compute_not(const Expression& e, const Scene& scene);
+  Value compute_logic(const Expression& e, const Value& left, const Scene& scene);
   Value compute_choice(const Expression& e, const Scene& scene);
-  Value compute_member(const Expression& e, const Scene& scene);
+  Value compute_member(const Expression& e, const Value& value, const Scene& scene);
   Value compute_call(const Expression& e, const Scene& scene);
   Value literal_string(const Span& span, const Source& source);
   Value checked(Value value, const Expression& e, const Scene& scene);
   Value fail(const Expression& e, const Scene& scene, std::string message, std::string suggestion = {});
-  Value wrong_type(const Expression& argument, const Value& found, std::string_view wanted, const Scene& scene);
+  Value wrong_type(const Expression& argument, const Value& found, std::string_view wanted,
+                   const Scene& scene);
 
   Names& names_;
   Moment moment_;

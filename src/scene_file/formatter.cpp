@@ -37,7 +37,8 @@ class Pieces {
   Pieces(const SyntaxTree& tree, const std::vector<ReadToken>& tokens) : source_(*tree.source) {
     auto comment = tree.comments.begin();
     for (const ReadToken& read : tokens) {
-      for (; comment != tree.comments.end() && comment->begin < read.token.span.begin; ++comment) add_comment(*comment);
+      for (; comment != tree.comments.end() && comment->begin < read.token.span.begin; ++comment)
+        add_comment(*comment);
       if (read.token.type != TokenType::kEnd) add_token(read);
     }
     mark_starts(item_starts(tree));
@@ -50,7 +51,9 @@ class Pieces {
   std::string_view text_between(std::size_t first, std::size_t last) const {
     return source_.text({pieces_[first].span.begin, pieces_[last].span.end});
   }
-  bool is(std::size_t i, std::string_view symbol) const { return !pieces_[i].is_comment && text(i) == symbol; }
+  bool is(std::size_t i, std::string_view symbol) const {
+    return !pieces_[i].is_comment && text(i) == symbol;
+  }
 
  private:
   void add(Piece piece) {
@@ -65,7 +68,8 @@ class Pieces {
     piece.span = span;
     piece.is_comment = true;
     piece.is_line_comment = source_.text(span).starts_with("//");
-    while (piece.is_line_comment && source_.text(piece.span).find_last_of(" \t\v\f") == piece.span.end - piece.span.begin - 1) {
+    while (piece.is_line_comment &&
+           source_.text(piece.span).find_last_of(" \t\v\f") == piece.span.end - piece.span.begin - 1) {
       --piece.span.end;
     }
     add(piece);
@@ -77,11 +81,12 @@ class Pieces {
     piece.type = read.token.type;
     piece.mode = read.mode;
     const std::string_view symbol = source_.text(piece.span);
-    piece.is_sign = piece.type == TokenType::kOperator && (symbol == "+" || symbol == "-") && !last_ends_operand_;
+    piece.is_sign =
+        piece.type == TokenType::kOperator && (symbol == "+" || symbol == "-") && !last_ends_operand_;
     add(piece);
-    last_ends_operand_ = piece.type == TokenType::kWord
-                             ? !is_keyword_before_value(symbol)
-                             : piece.type != TokenType::kOperator && piece.type != TokenType::kOpenParenthesis;
+    last_ends_operand_ = piece.type == TokenType::kWord ? !is_keyword_before_value(symbol)
+                                                        : piece.type != TokenType::kOperator &&
+                                                              piece.type != TokenType::kOpenParenthesis;
   }
 
   void mark_starts(const std::vector<std::uint32_t>& offsets) {
@@ -93,7 +98,8 @@ class Pieces {
       if (token == pieces_.size() && text(i) == "raytracer") piece.is_start = true;  // the version
       if (start != offsets.end() && *start == piece.span.begin) {
         ++start;
-        // Offsets of a 'let' are those of its name; the 'if' of an 'else if' is part of the item that the 'else' belongs to.
+        // Offsets of a 'let' are those of its name; the 'if' of an 'else if' is part of the item that the
+        // 'else' belongs to.
         const bool has_let = token != pieces_.size() && text(token) == "let" && !pieces_[token].is_start;
         const bool goes_on = token != pieces_.size() && text(token) == "else";
         if (!goes_on) pieces_[has_let ? token : i].is_start = true;
@@ -154,7 +160,8 @@ class Writer {
     return end;
   }
 
-  // The items and comments [begin, end), each on a line of its own but for comments behind and in front of something.
+  // The items and comments [begin, end), each on a line of its own but for comments behind and in front of
+  // something.
   void write_body(std::size_t begin, std::size_t end, std::size_t level) {
     bool line_has_item = level > 0;  // the '{' in front
     for (std::size_t i = begin; i < end;) {
@@ -217,7 +224,8 @@ class Writer {
     return pieces_.is(i, "if") || pieces_.is(i, "for") || pieces_.is(i, "define") || pieces_.is(i, "let");
   }
 
-  // What stands between the piece `i` of an item and the one in front of it, where the item may take several lines.
+  // What stands between the piece `i` of an item and the one in front of it, where the item may take several
+  // lines.
   void separate(std::size_t begin, std::size_t i, std::size_t level, bool is_block) {
     const Piece& piece = pieces_[i];
     const Piece& previous = pieces_[i - 1];

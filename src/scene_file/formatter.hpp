@@ -14,10 +14,10 @@ struct FormattedText {
   std::vector<Diagnostic> diagnostics;  ///< mistakes of syntax
 };
 
-/// The text with the same tokens and comments in canonical form; formatting that once more changes nothing. Indented by two
-/// spaces, one item per line; what stood on one line between its braces stays there where it has room; line breaks within
-/// long values and single blank lines are kept, columns aligned by hand are not. Line ends become LF, a byte-order mark goes.
-/// `name` stands in the messages.
+/// The text with the same tokens and comments in canonical form; formatting that once more changes nothing.
+/// Indented by two spaces, one item per line; what stood on one line between its braces stays there where it
+/// has room; line breaks within long values and single blank lines are kept, columns aligned by hand are not.
+/// Line ends become LF, a byte-order mark goes. `name` stands in the messages.
 FormattedText format_text(const std::string& text, const std::string& name);
 
 }  // namespace raytracer::scene_file

@@ -24,7 +24,8 @@ FunctionResult wrong_argument(std::size_t index, std::string_view wanted, const 
                              kOrdinals[std::min<std::size_t>(index, 3)], describe(found.type)));
 }
 
-// --- functions of plain numbers ------------------------------------------------------------------------------------
+// --- functions of plain numbers
+// ------------------------------------------------------------------------------------
 
 template <double (*F)(double)>
 FunctionResult of_number(Arguments a) {
@@ -54,7 +55,8 @@ FunctionResult tangent(Arguments a) {
 template <double (*F)(double)>
 FunctionResult inverse_of_share(Arguments a) {
   if (!a[0].is_number()) return wrong_argument(0, "a number", a[0]);
-  if (!(std::abs(a[0].x()) <= 1)) return problem(fmt::format("takes a number between -1 and 1, found {}", a[0].x()));
+  if (!(std::abs(a[0].x()) <= 1))
+    return problem(fmt::format("takes a number between -1 and 1, found {}", a[0].x()));
   return {Value::number(glm::degrees(F(a[0].x()))), {}};
 }
 
@@ -84,9 +86,11 @@ FunctionResult power(Arguments a) {
   return {Value::number(std::pow(a[0].x(), a[1].x())), {}};
 }
 
-// --- functions that take vectors component by component, as in GLSL --------------------------------------------------
+// --- functions that take vectors component by component, as in GLSL
+// --------------------------------------------------
 
-// All arguments are numbers or vectors; one vector makes the result a vector, and numbers count for each component.
+// All arguments are numbers or vectors; one vector makes the result a vector, and numbers count for each
+// component.
 template <std::size_t N, class F>
 FunctionResult by_component(Arguments a, F f) {
   bool is_vector = false;
@@ -148,30 +152,56 @@ bool has_zero(const Value& v) {
 }
 
 FunctionResult modulus(Arguments a) {
-  if (has_zero(a[1])) return problem("divides by zero");
+  const bool divides = a[1].is_number() || a[1].is_vector();
+  if (divides && has_zero(a[1])) {
+    // The first argument may be of the wrong type, which is worse.
+    FunctionResult types = by_component<2>(a, [](double, double) { return 0.0; });
+    return types.problem.empty() ? problem("divides by zero") : types;
+  }
   return by_component<2>(a, modulo);
 }
 FunctionResult clamped(Arguments a) {
-  return by_component<3>(a, [](double x, double low, double high) { return std::min(std::max(x, low), high); });
+  return by_component<3>(a,
+                         [](double x, double low, double high) { return std::min(std::max(x, low), high); });
 }
 FunctionResult mixed(Arguments a) {
   return by_component<3>(a, [](double x, double y, double share) { return x * (1 - share) + y * share; });
 }
 FunctionResult smooth_step(Arguments a) {
-  if (a[0].vector == a[1].vector) return problem("needs two different edges");
-  return by_component<3>(a, smooth);
+  bool has_edge = true;
+  FunctionResult result = by_component<3>(a, [&](double from, double to, double x) {
+    has_edge = has_edge && from != to;
+    return smooth(from, to, x);
+  });
+  return has_edge ? result : problem("needs two different edges");
 }
 
-// --- vectors, colours, chance ----------------------------------------------------------------------------------------
+// --- vectors, colours, chance
+// ----------------------------------------------------------------------------------------
+
+// A vector and the power of two that was taken out of it, so that no square of its components leaves the
+// range of doubles. Powers of two change no digit.
+struct Scaled {
+  Vector3d vector;
+  int exponent = 0;
+};
+
+Scaled scaled(const Vector3d& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (largest == 0) return {v, 0};
+  const int exponent = std::ilogb(largest);
+  return {{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)}, exponent};
+}
 
 FunctionResult vector_length(Arguments a) {
   if (!a[0].is_vector()) return wrong_argument(0, "a vector", a[0]);
-  return {Value::number(glm::length(a[0].vector)), {}};
+  const Scaled v = scaled(a[0].vector);
+  return {Value::number(std::ldexp(glm::length(v.vector), v.exponent)), {}};
 }
 FunctionResult normalized(Arguments a) {
   if (!a[0].is_vector()) return wrong_argument(0, "a vector", a[0]);
-  if (glm::length(a[0].vector) == 0) return problem("of (0, 0, 0): it has no direction");
-  return {Value::of_vector(glm::normalize(a[0].vector)), {}};
+  if (a[0].vector == Vector3d(0)) return problem("of (0, 0, 0): it has no direction");
+  return {Value::of_vector(glm::normalize(scaled(a[0].vector).vector)), {}};
 }
 FunctionResult dot_product(Arguments a) {
   for (std::size_t i = 0; i < 2; ++i) {
@@ -212,7 +242,8 @@ FunctionResult kelvin_color(Arguments a) {
   if (!a[0].is_number()) return wrong_argument(0, "a number", a[0]);
   constexpr double kColdest = 800, kHottest = 40000;
   if (!(a[0].x() >= kColdest && a[0].x() <= kHottest)) {
-    return problem(fmt::format("takes a temperature between {} and {}, found {}", kColdest, kHottest, a[0].x()));
+    return problem(
+        fmt::format("takes a temperature between {} and {}, found {}", kColdest, kHottest, a[0].x()));
   }
   return {Value::color(black_body_color(a[0].x())), {}};
 }
@@ -251,19 +282,26 @@ constexpr FunctionRow kFunctions[] = {
     {"kelvin", "k", 1, 1, "The colour of a glowing body; its largest component is 1.", kelvin_color},
 };
 
-constexpr std::string_view kReserved[] = {"let",  "for",   "from", "to",   "step", "if",  "else",  "define", "include",
-                                          "true", "false", "and",  "or",   "not",  "pi",  "t",     "frame",  "raytracer"};
+constexpr std::string_view kReserved[] = {"let",  "for",    "from",    "to",   "step",  "if",
+                                          "else", "define", "include", "true", "false", "and",
+                                          "or",   "not",    "pi",      "t",    "frame", "raytracer"};
 
 }  // namespace
 
 std::string_view describe(ValueType type) {
   switch (type) {
-    case ValueType::kUnknown: return "nothing";
-    case ValueType::kNumber: return "a number";
-    case ValueType::kBoolean: return "true or false";
-    case ValueType::kVector: return "a vector";
-    case ValueType::kColor: return "a colour";
-    case ValueType::kString: return "a string";
+    case ValueType::kUnknown:
+      return "nothing";
+    case ValueType::kNumber:
+      return "a number";
+    case ValueType::kBoolean:
+      return "true or false";
+    case ValueType::kVector:
+      return "a vector";
+    case ValueType::kColor:
+      return "a colour";
+    case ValueType::kString:
+      return "a string";
   }
   return {};
 }

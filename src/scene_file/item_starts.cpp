@@ -47,7 +47,8 @@ class Collector {
   }
 
   const KindRow* row_of(const BlockNode& block) const {
-    const KindRow* variant = block.words.empty() ? nullptr : find_kind(text(block.kind), text(block.words[0]));
+    const KindRow* variant =
+        block.words.empty() ? nullptr : find_kind(text(block.kind), text(block.words[0]));
     return variant != nullptr ? variant : find_kind(text(block.kind));
   }
 
@@ -69,7 +70,8 @@ class Collector {
     return property == material_property().name ? 0 : kMostWords;
   }
 
-  // Whether a word in a block, read as a property's name or a block's kind, is rather a value of the property in front of it.
+  // Whether a word in a block, read as a property's name or a block's kind, is rather a value of the property
+  // in front of it.
   bool is_value(const BlockNode& block, std::uint32_t previous_end, Span word) const {
     const std::string_view name = text(word);
     if (find_kind(name) != nullptr || definitions_.contains(name)) return false;
@@ -103,7 +105,8 @@ class Collector {
         continue;
       }
       const auto* inner = std::get_if<const BlockNode*>(&item);
-      const bool is_shifted = inner != nullptr && room > 0 && !(*inner)->words.empty() && is_value(*block, end, (*inner)->kind);
+      const bool is_shifted =
+          inner != nullptr && room > 0 && !(*inner)->words.empty() && is_value(*block, end, (*inner)->kind);
       room = 0;
       starts.push_back(is_shifted ? (*inner)->words.front().begin : begin_of(item));
       for_each_body({&item, 1}, [&](const ItemNode&, std::span<const ItemNode> body) {

@@ -27,7 +27,8 @@ FunctionResult display_color(std::span<const Value> rgb) {
   }
   return result;
 }
-constexpr FunctionRow kDisplayColor = {"display", "r, g, b", 3, 3, "a colour as a display shows it", display_color};
+constexpr FunctionRow kDisplayColor = {"display",    "r, g, b", 3, 3, "a colour as a display shows it",
+                                       display_color};
 
 class SceneReader {
  public:
@@ -54,12 +55,17 @@ class SceneReader {
     const bool is_long = value.type == JsonType::kArray || value.type == JsonType::kObject;
     return is_long ? Span{value.span.begin, value.span.begin + 1} : value.span;
   }
-  bool is_key(const JsonMember& member, std::string_view key) const { return text(member.key.inside()) == key; }
+  bool is_key(const JsonMember& member, std::string_view key) const {
+    return text(member.key.inside()) == key;
+  }
   const JsonMember* find(const JsonValue& object, std::string_view key) const {
-    const auto found = std::ranges::find_if(object.members, [&](const JsonMember& m) { return is_key(m, key); });
+    const auto found =
+        std::ranges::find_if(object.members, [&](const JsonMember& m) { return is_key(m, key); });
     return found == object.members.end() ? nullptr : &*found;
   }
-  std::span<const ItemNode> keep(const Items& items) { return tree_->arena.copy(std::span<const ItemNode>(items)); }
+  std::span<const ItemNode> keep(const Items& items) {
+    return tree_->arena.copy(std::span<const ItemNode>(items));
+  }
 
   bool expect(const JsonValue& value, JsonType type, std::string_view what, std::string suggestion = {}) {
     if (value.type == type) return true;
@@ -91,14 +97,16 @@ class SceneReader {
   Diagnostics& diagnostics_;
 };
 
-bool SceneReader::has_only(const JsonValue& object, std::span<const std::string_view> known, std::string_view what) {
+bool SceneReader::has_only(const JsonValue& object, std::span<const std::string_view> known,
+                           std::string_view what) {
   bool sound = true;
   for (const JsonMember& member : object.members) {
     const std::string_view key = text(member.key.inside());
     if (std::ranges::find(known, key) != known.end()) continue;
     const std::string_view nearest = nearest_word(key, known);
     error(member.key.inside(), fmt::format("{} has no '{}'", what, key),
-          nearest.empty() ? fmt::format("it has {}", fmt::join(known, ", ")) : fmt::format("did you mean '{}'?", nearest));
+          nearest.empty() ? fmt::format("it has {}", fmt::join(known, ", "))
+                          : fmt::format("did you mean '{}'?", nearest));
     sound = false;
   }
   return sound;
@@ -110,7 +118,8 @@ void SceneReader::read_scene(const JsonValue& scene) {
   constexpr std::array<std::string_view, 2> kKeys = {"raytracer", "blocks"};
   const bool sound = has_only(scene, kKeys, "a scene");
   const JsonMember* version = find(scene, "raytracer");
-  if (version != nullptr && (version->value.type != JsonType::kNumber || version->value.number != kLanguageVersion)) {
+  if (version != nullptr &&
+      (version->value.type != JsonType::kNumber || version->value.number != kLanguageVersion)) {
     error(mark(version->value), "this is no version of the language that is known",
           fmt::format("this program reads \"raytracer\": {}", kLanguageVersion));
   }
@@ -140,7 +149,8 @@ bool SceneReader::take_name(const JsonMember& member, Span& name) {
   if (!expect(member.value, JsonType::kString, "a name in quotes")) return false;
   name = member.value.inside();
   if (is_name(name)) return true;
-  error(member.value.span, fmt::format("{} is no name", text(member.value.span)), "a name has letters, digits and '_' only");
+  error(member.value.span, fmt::format("{} is no name", text(member.value.span)),
+        "a name has letters, digits and '_' only");
   return false;
 }
 
@@ -160,7 +170,8 @@ void SceneReader::read_block(const JsonValue& object, Items& items) {
     return;
   }
   if (word == "let" || word == "for" || word == "if") {
-    return error(kind->value.span, fmt::format("JSON has no '{}'", word), "whoever writes the JSON computes it");
+    return error(kind->value.span, fmt::format("JSON has no '{}'", word),
+                 "whoever writes the JSON computes it");
   }
   std::vector<Span> words;
   if (!read_words(object, block.kind, words)) return;
@@ -193,7 +204,8 @@ bool SceneReader::read_words(const JsonValue& object, Span kind, std::vector<Spa
   if (const JsonMember* name = find(object, "name")) {
     if (!take_name(*name, word)) return false;
     if (words.empty() && find_kind(text(kind), text(word)) != nullptr) {
-      error(word, fmt::format("'{}' is a variant of '{}', no name", text(word), text(kind)), "\"variant\": …");
+      error(word, fmt::format("'{}' is a variant of '{}', no name", text(word), text(kind)),
+            "\"variant\": …");
       return false;
     }
     words.push_back(word);
@@ -206,7 +218,8 @@ const IncludeNode* SceneReader::read_include(const JsonValue& object, Span keywo
   if (!has_only(object, kKeys, "an include")) return nullptr;
   const JsonMember* file = find(object, "file");
   if (file == nullptr || file->value.type != JsonType::kString) {
-    error(file == nullptr ? keyword : mark(file->value), "'include' needs the name of a file", R"("file": "parts.txt")");
+    error(file == nullptr ? keyword : mark(file->value), "'include' needs the name of a file",
+          R"("file": "parts.txt")");
     return nullptr;
   }
   IncludeNode include;
@@ -228,7 +241,8 @@ const DefineNode* SceneReader::read_define(const JsonValue& object, Span keyword
   if (!take_name(*name, define.name_span)) return nullptr;
   const std::string_view word = text(define.name_span);
   if (is_reserved(word) || find_kind(word) != nullptr) {
-    error(define.name_span, fmt::format("'{}' is built in and can't be given another meaning", word), "choose another name");
+    error(define.name_span, fmt::format("'{}' is built in and can't be given another meaning", word),
+          "choose another name");
     return nullptr;
   }
   define.name = names_.id_of(word);
@@ -253,14 +267,16 @@ void SceneReader::read_properties(const JsonValue& object, const KindRow* row, I
   items.insert(items.end(), blocks.begin(), blocks.end());
 }
 
-// `[{"rotate": [0, 30, 0]}, {"translate": [1, 0, 0]}]`: an object cannot say one word twice, and their order counts.
+// `[{"rotate": [0, 30, 0]}, {"translate": [1, 0, 0]}]`: an object cannot say one word twice, and their order
+// counts.
 void SceneReader::read_transforms(const JsonMember& transforms, Items& items) {
   constexpr const char* kExample = R"([{"rotate": [0, 30, 0]}, {"translate": [1, 0, 0]}])";
   if (!expect(transforms.value, JsonType::kArray, "a list of transforms", kExample)) return;
   for (const JsonValue& transform : transforms.value.elements) {
     if (!expect(transform, JsonType::kObject, "a transform", kExample)) continue;
     if (transform.members.size() != 1) {
-      error(mark(transform), fmt::format("a transform has one word, found {}", transform.members.size()), kExample);
+      error(mark(transform), fmt::format("a transform has one word, found {}", transform.members.size()),
+            kExample);
       continue;
     }
     const JsonMember& member = transform.members[0];
@@ -274,7 +290,8 @@ void SceneReader::read_transforms(const JsonMember& transforms, Items& items) {
     for (const PropertyRow& each : rows) known.push_back(each.name);
     const std::string_view nearest = nearest_word(text(member.key.inside()), known);
     error(member.key.inside(), fmt::format("there is no transform '{}'", text(member.key.inside())),
-          nearest.empty() ? fmt::format("known are {}", fmt::join(known, ", ")) : fmt::format("did you mean '{}'?", nearest));
+          nearest.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
+                          : fmt::format("did you mean '{}'?", nearest));
   }
 }
 
@@ -314,7 +331,8 @@ const BlockNode* SceneReader::read_inner_block(const JsonMember& member) {
   block.kind = member.key.inside();
   block.kind_name = names_.id_of(text(block.kind));
   Items items;
-  for (const JsonMember& inner : member.value.members) read_property(inner, find_kind(text(block.kind)), items);
+  for (const JsonMember& inner : member.value.members)
+    read_property(inner, find_kind(text(block.kind)), items);
   block.items = keep(items);
   block.end = member.value.span.end;
   return tree_->arena.make(block);
@@ -328,7 +346,8 @@ ValueNode SceneReader::value_of(const JsonValue& json, const PropertyRow* row) {
       value.kind = ValueKind::kNumber;
       value.number = json.number;
       return value;
-    case JsonType::kString: return string_value(json, row);
+    case JsonType::kString:
+      return string_value(json, row);
     case JsonType::kTrue:
     case JsonType::kFalse:
       value.kind = ValueKind::kWord;
@@ -348,25 +367,28 @@ ValueNode SceneReader::string_value(const JsonValue& json, const PropertyRow* ro
   value.span = json.span;
   const std::string_view inside = text(json.inside());
   const bool takes_color = row != nullptr && row->type == PropertyType::kColor;
-  const bool takes_word =
-      row != nullptr && (row->type == PropertyType::kWord || row->type == PropertyType::kMaterial || takes_color);
+  const bool takes_word = row != nullptr && (row->type == PropertyType::kWord ||
+                                             row->type == PropertyType::kMaterial || takes_color);
   if (takes_color && inside.starts_with('#')) {
     if (is_color(inside)) {
       value.kind = ValueKind::kColor;
       value.span = json.inside();
     } else {
-      error(json.span, fmt::format("{} is not a colour", text(json.span)), "colours look like \"#f80\" or \"#ff8800\"");
+      error(json.span, fmt::format("{} is not a colour", text(json.span)),
+            "colours look like \"#f80\" or \"#ff8800\"");
     }
   } else if (takes_color && !named_color(inside)) {
     const std::string_view nearest = nearest_word(inside, color_names());
-    error(json.span, fmt::format("there is no colour {}", text(json.span)),
-          nearest.empty() ? "\"#ff8800\", a name or [1, 0.5, 0]" : fmt::format("did you mean '{}'?", nearest));
+    error(
+        json.span, fmt::format("there is no colour {}", text(json.span)),
+        nearest.empty() ? "\"#ff8800\", a name or [1, 0.5, 0]" : fmt::format("did you mean '{}'?", nearest));
   } else if (takes_word) {
     value.kind = is_name(json.inside()) ? ValueKind::kWord : ValueKind::kBad;
     value.span = json.inside();
     value.name = names_.id_of(inside);
     if (value.kind == ValueKind::kBad) {
-      error(json.span, fmt::format("{} is no word", text(json.span)), "a word has letters, digits and '_' only");
+      error(json.span, fmt::format("{} is no word", text(json.span)),
+            "a word has letters, digits and '_' only");
     }
   } else {
     value.kind = ValueKind::kString;
@@ -407,8 +429,14 @@ ValueNode SceneReader::display_value(const JsonMember& display) {
 bool is_json(std::string_view name, std::string_view text) {
   if (name.ends_with(".json")) return true;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos && text[first] == '{';
+  const auto skip_blanks = [&] {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  };
+  skip_blanks();
+  if (!text.starts_with('{')) return false;
+  text.remove_prefix(1);
+  skip_blanks();
+  return text.empty() || text[0] == '"' || text[0] == '}';
 }
 
 std::unique_ptr<SyntaxTree> parse_json_scene(const Source& source, Names& names, Diagnostics& diagnostics) {

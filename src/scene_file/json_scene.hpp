@@ -9,7 +9,8 @@
 
 namespace raytracer::scene_file {
 
-/// Whether a text is meant as JSON: by its file's name, or because it begins with a brace, as no other scene does.
+/// Whether a text is meant as JSON: by its file's name, or because it begins with a brace and a quotation
+/// mark, as no other scene does.
 bool is_json(std::string_view name, std::string_view text);
 
 /// The same nodes as from a scene's text, with places in the JSON. Mistakes go to `diagnostics`.

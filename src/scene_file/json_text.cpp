@@ -14,11 +14,14 @@
 namespace raytracer::scene_file {
 namespace {
 
-constexpr int kDeepestValue = 2 * kDeepestNesting + 4;  // a block inside a block is an object in an array in an object
+constexpr int kDeepestValue =
+    2 * kDeepestNesting + 4;  // a block inside a block is an object in an array in an object
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool is_word_character(char c) { return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_word_character(char c) {
+  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
 
 // The four hexadecimal digits at the beginning; nothing where they aren't.
 std::optional<std::uint32_t> code_unit(std::string_view text) {
@@ -110,8 +113,10 @@ class JsonParser {
           return fail(word_here(), fmt::format("values are nested more than {} deep", kDeepestValue));
         }
         return here() == '{' ? parse_object(depth) : parse_array(depth);
-      case '"': return parse_string();
-      default: break;
+      case '"':
+        return parse_string();
+      default:
+        break;
     }
     if (here() == '-' || is_digit(here())) return parse_number();
     const Span word = word_here();
@@ -119,12 +124,15 @@ class JsonParser {
     value.span = word;
     const std::string_view written = source_.text(word);
     if (written != "true" && written != "false" && written != "null") return unexpected("a value");
-    value.type = written == "true" ? JsonType::kTrue : written == "false" ? JsonType::kFalse : JsonType::kNull;
+    value.type = written == "true"    ? JsonType::kTrue
+                 : written == "false" ? JsonType::kFalse
+                                      : JsonType::kNull;
     position_ = word.end;
     return value;
   }
 
-  // Goes over the ',' behind an element or the bracket that ends them all; false after a mistake, which has been reported.
+  // Goes over the ',' behind an element or the bracket that ends them all; false after a mistake, which has
+  // been reported.
   bool next(char close, std::uint32_t open, bool& more) {
     skip_blanks();
     more = here() == ',';
@@ -140,7 +148,8 @@ class JsonParser {
   bool is_at_end(std::uint32_t open, char close) {
     skip_blanks();
     if (position_ < text_.size()) return false;
-    fail({open, open + 1}, fmt::format("this '{}' is never closed", text_[open]), fmt::format("'{}' is missing", close));
+    fail({open, open + 1}, fmt::format("this '{}' is never closed", text_[open]),
+         fmt::format("'{}' is missing", close));
     return true;
   }
 
@@ -178,8 +187,8 @@ class JsonParser {
       if (!key) return std::nullopt;
       const auto [first, is_new] = keys.try_emplace(json_unescape(source_.text(key->inside())), key->span);
       if (!is_new) {
-        diagnostics_.error({&source_, key->span}, fmt::format("{} is given twice", source_.text(key->span)), {},
-                           {{{&source_, first->second}, "first given here"}});
+        diagnostics_.error({&source_, key->span}, fmt::format("{} is given twice", source_.text(key->span)),
+                           {}, {{{&source_, first->second}, "first given here"}});
         return std::nullopt;
       }
       skip_blanks();
@@ -210,7 +219,8 @@ class JsonParser {
       position_ += unit ? 5 : 1;
       if (unit && !is_high_surrogate(*unit) && !is_low_surrogate(*unit)) return true;
       const bool has_second = text_.substr(position_, 2) == "\\u";
-      const std::optional<std::uint32_t> second = has_second ? code_unit(text_.substr(position_ + 2)) : std::nullopt;
+      const std::optional<std::uint32_t> second =
+          has_second ? code_unit(text_.substr(position_ + 2)) : std::nullopt;
       if (unit && is_high_surrogate(*unit) && second && is_low_surrogate(*second)) {
         position_ += 6;
         return true;
@@ -232,7 +242,8 @@ class JsonParser {
       const auto byte = static_cast<unsigned char>(here());
       if (here() == '\n' || here() == '\r') break;
       if (byte < 0x20) {
-        return fail({position_, position_ + 1}, fmt::format("a control character (byte {:#04x}) in a string", byte),
+        return fail({position_, position_ + 1},
+                    fmt::format("a control character (byte {:#04x}) in a string", byte),
                     fmt::format("\\u{:04x}", byte));
       }
       if (byte != '\\') {
@@ -241,7 +252,8 @@ class JsonParser {
         return std::nullopt;
       }
     }
-    if (here() != '"') return fail({begin, begin + 1}, "this string is not closed on its line", "'\"' is missing");
+    if (here() != '"')
+      return fail({begin, begin + 1}, "this string is not closed on its line", "'\"' is missing");
     ++position_;
     JsonValue value;
     value.type = JsonType::kString;
@@ -249,7 +261,8 @@ class JsonParser {
     return value;
   }
 
-  // The end of a number that begins at the position, by the standard's grammar; the position itself where it is none.
+  // The end of a number that begins at the position, by the standard's grammar; the position itself where it
+  // is none.
   std::uint32_t end_of_number() const {
     std::uint32_t end = position_ + (here() == '-' ? 1 : 0);
     const auto digits = [&](std::uint32_t from) {
@@ -323,7 +336,8 @@ std::string json_unescape(std::string_view inside) {
     std::uint32_t code_point = code_unit(inside.substr(i + 1)).value_or(0);
     i += 4;
     if (is_high_surrogate(code_point)) {
-      code_point = 0x10000 + ((code_point - 0xD800) << 10U) + (code_unit(inside.substr(i + 3)).value_or(0xDC00) - 0xDC00);
+      code_point = 0x10000 + ((code_point - 0xD800) << 10U) +
+                   (code_unit(inside.substr(i + 3)).value_or(0xDC00) - 0xDC00);
       i += 6;
     }
     append_utf8(text, code_point);

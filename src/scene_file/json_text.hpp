@@ -31,8 +31,8 @@ struct JsonMember {
   JsonValue value;
 };
 
-/// Parses a source that holds one value, nested about twice as deep as blocks may be; null where it does not, and the first mistake has
-/// been reported.
+/// Parses a source that holds one value, nested about twice as deep as blocks may be; null where it does not,
+/// and the first mistake has been reported.
 const JsonValue* parse_json(const Source& source, Arena& arena, Diagnostics& diagnostics);
 
 /// The text of a string, its escapes resolved. `inside` stands between the quotes and is well-formed.

@@ -95,7 +95,7 @@ Token Lexer::next(LexMode mode) {
     case '}': ++position_; return token(TokenType::kCloseBrace, begin);
     case '(': ++position_; return token(TokenType::kOpenParenthesis, begin);
     case ')': ++position_; return token(TokenType::kCloseParenthesis, begin);
-    default: return lex_operator();
+    default: return lex_operator(mode);
   }
 }
 
@@ -168,7 +168,7 @@ Token Lexer::lex_color() {
   return token(TokenType::kColor, begin);
 }
 
-Token Lexer::lex_operator() {
+Token Lexer::lex_operator(LexMode mode) {
   const std::uint32_t begin = position_;
   constexpr std::string_view kSingle = "+-*/%^<>=!?:,.";
   if (text_.substr(position_, 2) == "*/") {
@@ -183,22 +183,35 @@ Token Lexer::lex_operator() {
       return token(TokenType::kOperator, begin);
     }
   }
-  if (kSingle.find(text_[position_]) == std::string_view::npos) return unexpected_character();
+  if (kSingle.find(text_[position_]) == std::string_view::npos) return unexpected_character(mode);
   ++position_;
   return token(TokenType::kOperator, begin);
 }
 
-Token Lexer::unexpected_character() {
+Token Lexer::unexpected_character(LexMode mode) {
   const std::uint32_t begin = position_++;
   const auto byte = static_cast<unsigned char>(text_[begin]);
   if (byte < 0x20 || byte == 0x7F) {
     error({begin, position_}, fmt::format("unexpected control character (byte {:#04x})", byte),
           "a scene is plain text in UTF-8");
   } else {
-    error({begin, position_}, fmt::format("unexpected '{}'", text_[begin]),
-          text_[begin] == '[' || text_[begin] == ']' ? "a vector is three numbers: 0 1 0" : "");
+    const bool is_twin = (text_[begin] == '&' || text_[begin] == '|') && at(position_) == text_[begin];
+    if (is_twin) ++position_;
+    error({begin, position_}, fmt::format("unexpected '{}'", text_.substr(begin, position_ - begin)),
+          std::string(hint_for(begin, mode)));
   }
   return token(TokenType::kBad, begin);
+}
+
+// What another language's sign is called here.
+std::string_view Lexer::hint_for(std::uint32_t begin, LexMode mode) const {
+  const char sign = text_[begin];
+  if (sign == '&') return "'and' joins conditions: a and b";
+  if (sign == '|') return "'or' joins conditions: a or b";
+  if (sign != '[' && sign != ']') return {};
+  if (mode == LexMode::kValues) return "a vector is three numbers: 0 1 0";
+  const bool is_index = begin > 0 && (is_word_character(text_[begin - 1]) || text_[begin - 1] == ')');
+  return is_index ? "the components of a vector are .x .y .z" : "a vector is written (1, 2, 3)";
 }
 
 // Signs that word processors put where a keyboard has " and -.

@@ -59,8 +59,9 @@ class Lexer {
   Token lex_number();
   Token lex_string();
   Token lex_color();
-  Token lex_operator();
-  Token unexpected_character();
+  Token lex_operator(LexMode mode);
+  Token unexpected_character(LexMode mode);
+  std::string_view hint_for(std::uint32_t begin, LexMode mode) const;
   bool starts_with_lookalike() const;
   Token lex_lookalike();
   Token token(TokenType type, std::uint32_t begin) const { return {type, {begin, position_}, 0}; }

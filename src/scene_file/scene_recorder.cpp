@@ -13,7 +13,9 @@
 namespace raytracer::scene_file {
 namespace {
 
-std::string array_text(std::span<const double> numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); }
+std::string array_text(std::span<const double> numbers) {
+  return fmt::format("[{}]", fmt::join(numbers, ", "));
+}
 
 // Display colours are marked as such: as digits where these say exactly the same.
 std::string color_text(const Argument& argument) {
@@ -32,15 +34,21 @@ std::string value_text(const PropertyRow& row, const Argument& argument) {
   const auto& n = argument.numbers;
   switch (row.type) {
     case PropertyType::kNumber:
-    case PropertyType::kInteger: return fmt::format("{}", n[0]);
-    case PropertyType::kBoolean: return n[0] != 0 ? "true" : "false";
-    case PropertyType::kString: return json_quoted(argument.text);
-    case PropertyType::kWord: return json_quoted(row.words[argument.index]);
-    case PropertyType::kColor: return color_text(argument);
+    case PropertyType::kInteger:
+      return fmt::format("{}", n[0]);
+    case PropertyType::kBoolean:
+      return n[0] != 0 ? "true" : "false";
+    case PropertyType::kString:
+      return json_quoted(argument.text);
+    case PropertyType::kWord:
+      return json_quoted(row.words[argument.index]);
+    case PropertyType::kColor:
+      return color_text(argument);
     case PropertyType::kSize:
       if (n[0] == n[1] && n[1] == n[2]) return fmt::format("{}", n[0]);
       break;
-    default: break;
+    default:
+      break;
   }
   return array_text(std::span(n).first(most_numbers(row.type)));
 }
@@ -62,7 +70,8 @@ void SceneRecorder::end_block() {
   Node& parent = open_.back();
   if (node.is_value) {
     const std::string_view properties = node.properties;
-    parent.properties += fmt::format(", \"material\": {{{}}}", properties.substr(std::min<std::size_t>(2, properties.size())));
+    parent.properties +=
+        fmt::format(", \"material\": {{{}}}", properties.substr(std::min<std::size_t>(2, properties.size())));
   } else if (node.kind != "animation") {  // a moment has no duration
     parent.children.push_back(std::move(node));
   }

@@ -1,5 +1,5 @@
-// What an evaluated scene says, written down as a scene in JSON: loops unrolled, computed values as numbers, definitions
-// and their uses as they are.
+// What an evaluated scene says, written down as a scene in JSON: loops unrolled, computed values as numbers,
+// definitions and their uses as they are.
 #pragma once
 
 #include <memory>
@@ -15,9 +15,9 @@
 
 namespace raytracer::scene_file {
 
-/// Told by the builder of every block, every property and every definition, in the order of evaluation. A definition with
-/// parameters becomes one definition without for each set of arguments. Names that are local to a turn of a loop, or to a
-/// use, get a number where they would collide.
+/// Told by the builder of every block, every property and every definition, in the order of evaluation. A
+/// definition with parameters becomes one definition without for each set of arguments. Names that are local
+/// to a turn of a loop, or to a use, get a number where they would collide.
 class SceneRecorder {
  public:
   /// A block, while it is being built.
@@ -40,7 +40,8 @@ class SceneRecorder {
   /// The body of a definition, while it is run: written down once for each set of arguments.
   class Body {
    public:
-    Body(SceneRecorder* recorder, const void* definition, const std::vector<Value>& arguments) : recorder_(recorder) {
+    Body(SceneRecorder* recorder, const void* definition, const std::vector<Value>& arguments)
+        : recorder_(recorder) {
       if (recorder_ != nullptr) recorder_->begin_body(definition, arguments);
     }
     ~Body() {
@@ -76,8 +77,9 @@ class SceneRecorder {
     std::string properties;  ///< `, "center": [0, 1, 0]`
     std::string transforms;  ///< `, {"rotate": [0, 30, 0]}`
     std::vector<Node> children;
-    std::shared_ptr<std::vector<Node>> definitions;  ///< where a definition stands: one for each set of arguments
-    bool is_value = false;                           ///< a material in place, the value of a property
+    std::shared_ptr<std::vector<Node>>
+        definitions;        ///< where a definition stands: one for each set of arguments
+    bool is_value = false;  ///< a material in place, the value of a property
   };
   struct Definition {
     std::string name;

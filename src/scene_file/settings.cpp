@@ -14,7 +14,8 @@ namespace {
 
 // A value as a person types it: what is no number, colour, vector or quoted string is text.
 Value read_value(const std::string& written, Files& files) {
-  const bool is_bare_vector = written.find(',') != std::string::npos && written.front() != '(' && written.front() != '"';
+  const bool is_bare_vector =
+      written.find(',') != std::string::npos && written.front() != '(' && written.front() != '"';
   const std::string text = is_bare_vector ? fmt::format("({})", written) : written;
   Diagnostics ignored;
   const Source source("--set", "", text);
@@ -24,7 +25,8 @@ Value read_value(const std::string& written, Files& files) {
   Budget budget(10'000);
   Evaluator evaluator(files.names(), {}, budget, ignored);
   Value value = evaluator.evaluate(*expression, source, {});
-  if (!value.is_known() || value.depends_on_time) return Value::string(files.names().text(files.names().id_of(written)));
+  if (!value.is_known() || value.depends_on_time)
+    return Value::string(files.names().text(files.names().id_of(written)));
   if (value.type == ValueType::kString) value.text = files.names().text(files.names().id_of(value.text));
   return value;
 }
@@ -33,9 +35,12 @@ Value read_value(const std::string& written, Files& files) {
 
 void apply_settings(std::span<const Setting> settings, Files& files, Builder& builder) {
   for (const Setting& setting : settings) {
-    if (setting.value.empty()) throw Error(ErrorKind::kUsage, fmt::format("--set {}= has no value", setting.name));
-    builder.replace_let(files.names().id_of(setting.name), read_value(setting.value, files),
-                        files.names().text(files.names().id_of(setting.value)));
+    if (setting.value.empty())
+      throw Error(ErrorKind::kUsage, fmt::format("--set {}= has no value", setting.name));
+    const Value value = read_value(setting.value, files);
+    const bool is_text = value.type == ValueType::kString;
+    builder.replace_let(files.names().id_of(setting.name), value,
+                        is_text ? value.text : files.names().text(files.names().id_of(setting.value)));
   }
 }
 
@@ -49,18 +54,22 @@ void check_settings(std::span<const Setting> settings, const Builder& builder) {
     }
     if (found) continue;
     const std::string_view nearest = nearest_word(setting.name, known);
-    throw Error(ErrorKind::kUsage,
-                fmt::format("the scene has no top-level 'let {}'{}; {}", setting.name,
-                            nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest),
-                            known.empty() ? "it has none" : fmt::format("it has {}", fmt::join(known, ", "))));
+    throw Error(
+        ErrorKind::kUsage,
+        fmt::format("the scene has no top-level 'let {}'{}; {}", setting.name,
+                    nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest),
+                    known.empty() ? "it has none" : fmt::format("it has {}", fmt::join(known, ", "))));
   }
 }
 
 std::string to_source(const Value& value) {
   switch (value.type) {
-    case ValueType::kNumber: return fmt::format("{}", value.x());
-    case ValueType::kBoolean: return value.is_true() ? "true" : "false";
-    case ValueType::kVector: return fmt::format("({}, {}, {})", value.vector.x, value.vector.y, value.vector.z);
+    case ValueType::kNumber:
+      return fmt::format("{}", value.x());
+    case ValueType::kBoolean:
+      return value.is_true() ? "true" : "false";
+    case ValueType::kVector:
+      return fmt::format("({}, {}, {})", value.vector.x, value.vector.y, value.vector.z);
     case ValueType::kColor: {
       const Vector3d bytes = value.vector * 255.0;
       const Vector3d whole = glm::round(bytes);
@@ -78,7 +87,8 @@ std::string to_source(const Value& value) {
       }
       return quoted + '"';
     }
-    case ValueType::kUnknown: break;
+    case ValueType::kUnknown:
+      break;
   }
   return "?";
 }

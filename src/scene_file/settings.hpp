@@ -12,7 +12,8 @@ namespace raytracer::scene_file {
 /// Hands the values to the builder. Throws Error (kUsage) for a value that can't be read.
 void apply_settings(std::span<const Setting> settings, Files& files, Builder& builder);
 
-/// After the scene was built: throws Error (kUsage) for a setting that replaced no `let`, listing those that are there.
+/// After the scene was built: throws Error (kUsage) for a setting that replaced no `let`, listing those that
+/// are there.
 void check_settings(std::span<const Setting> settings, const Builder& builder);
 
 /// A value as it would be written in a scene.

@@ -50,7 +50,8 @@ enum class Operation : std::uint8_t {
 /// A node of an expression.
 struct Expression {
   Operation operation = Operation::kUnknown;
-  Span span;
+  Span span;                              ///< for messages; with the parentheses around it
+  Span token;                             ///< of a kName, kString or kColor: itself, without parentheses
   double number = 0;                      ///< of a kNumber
   NameId name = 0;                        ///< of a kName
   const FunctionRow* function = nullptr;  ///< of a kCall

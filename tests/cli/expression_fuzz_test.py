@@ -123,6 +123,11 @@ def gradient_noise(p):
     return max(-1.0, min(1.0, total))
 
 
+def direction(v):
+    scaled = [x / max(map(abs, v)) for x in v]
+    return tuple(x / math.hypot(*scaled) for x in scaled)
+
+
 def hsv(h, s, v):
     sector = (h - 360 * math.floor(h / 360)) / 60
     chroma = v * s
@@ -214,8 +219,8 @@ FUNCTIONS = {
     "mix": ("aaa", None, lambda x, y, share: each(lambda a, b, s: a * (1 - s) + b * s, x, y, share)),
     "smoothstep": ("aaa", lambda low, high, x: not has_zero(each(lambda a, b: a - b, low, high)),
                    lambda low, high, x: each(smoothstep, low, high, x)),
-    "length": ("v", None, lambda v: math.sqrt(dot(v, v))),
-    "normalize": ("v", lambda v: any(v), lambda v: tuple(x / math.sqrt(dot(v, v)) for x in v)),
+    "length": ("v", None, lambda v: math.hypot(*v)),
+    "normalize": ("v", lambda v: any(v), direction),
     "dot": ("vv", None, dot),
     "cross": ("vv", None, cross),
     "random": ("a*", None, lambda *seeds: (hashed(seeds_of(seeds)) >> 11) / 2.0**53),

@@ -238,6 +238,13 @@ class AnyText(unittest.TestCase):
         done = run("check", "-", stdin=b"\xef\xbb\xbf \r\n" + scene_of('{"kind": "sphere"}').encode())
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_an_unused_material_is_called_by_its_name(self):
+        block = '{"name": "red", "kind": "material"}, {"kind": "sphere"}'
+        self.assertIn(b"'material red' is never used", run("check", "-", stdin=scene_of(block).encode()).stderr)
+
+    def test_a_stray_brace_makes_no_json(self):
+        self.assertIn(b"this '{' belongs to no block", run("check", "-", stdin=b"{ radius 1 }").stderr)
+
     def test_strings_hold_any_character(self):
         with tempfile.TemporaryDirectory() as folder:
             name = 'ä "q" \\ 😀.txt'

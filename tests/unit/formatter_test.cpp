@@ -1,11 +1,13 @@
-// Canonical form: what it looks like, that it is a fixed point, and that it keeps every token and every comment.
+// Canonical form: what it looks like, that it is a fixed point, and that it keeps every token and every
+// comment.
+#include "scene_file/formatter.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
 
 #include "catch.hpp"
-#include "scene_file/formatter.hpp"
 #include "scene_file/parser.hpp"
 
 using namespace raytracer;
@@ -36,7 +38,8 @@ std::string without_carriage_returns(std::string_view text) {
 }
 
 struct Parsed {
-  explicit Parsed(const std::string& text) : source("scene", "", text), tree(parse(source, names, diagnostics, &tokens)) {}
+  explicit Parsed(const std::string& text)
+      : source("scene", "", text), tree(parse(source, names, diagnostics, &tokens)) {}
 
   Content content() const {
     Content content;
@@ -69,13 +72,23 @@ std::string respaced(const std::string& text, std::mt19937& random) {
   std::vector<Span> pieces = parsed.tree->comments;
   for (const ReadToken& read : parsed.tokens) pieces.push_back(read.token.span);
   std::ranges::sort(pieces, {}, &Span::begin);
-  constexpr const char* kSpaces[] = {" ", "  ", "\t", "\n", "\n\n\n\n", "\r\n", " /* new */ ", " // new\n", "\n// new \n\n",
-                                     " /* of /* two */\n lines */", "   \n  "};
+  constexpr const char* kSpaces[] = {" ",
+                                     "  ",
+                                     "\t",
+                                     "\n",
+                                     "\n\n\n\n",
+                                     "\r\n",
+                                     " /* new */ ",
+                                     " // new\n",
+                                     "\n// new \n\n",
+                                     " /* of /* two */\n lines */",
+                                     "   \n  "};
   std::string out;
   std::uint32_t end = 0;
   for (const Span& piece : pieces) {
     const std::string gap(text.substr(end, piece.begin - end));
-    const bool needs_line = out.rfind("//") != std::string::npos && out.find('\n', out.rfind("//")) == std::string::npos;
+    const bool needs_line =
+        out.rfind("//") != std::string::npos && out.find('\n', out.rfind("//")) == std::string::npos;
     const bool changes = random() % 3 == 0;
     out += !changes ? gap : needs_line ? "\n" : kSpaces[random() % std::size(kSpaces)];
     out += text.substr(piece.begin, piece.end - piece.begin);
@@ -152,15 +165,19 @@ TEST_CASE("canonical form by examples") {
       {"sphere { center x y z radius r }", "sphere { center x y z  radius r }\n"},
       {"group { translate x y z material { } }", "group { translate x y z  material { } }\n"},
       {"define d(a 1,b(2*3)){sphere{radius a}}", "define d (a 1, b (2 * 3)) { sphere { radius a } }\n"},
-      {"define d (at (0,0,0), s 1) { }\nd { at x y z s 2 }", "define d (at (0, 0, 0), s 1) { }\nd { at x y z  s 2 }\n"},
+      {"define d (at (0,0,0), s 1) { }\nd { at x y z s 2 }",
+       "define d (at (0, 0, 0), s 1) { }\nd { at x y z  s 2 }\n"},
       {"for i from 0 to n-1{sphere{}}", "for i from 0 to n - 1 { sphere { } }\n"},
-      {"if a{sphere{}}\nelse if b{}else{cube{}}", "if a {\n  sphere { }\n} else if b { } else {\n  cube { }\n}\n"},
+      {"if a{sphere{}}\nelse if b{}else{cube{}}",
+       "if a {\n  sphere { }\n} else if b { } else {\n  cube { }\n}\n"},
       {"sphere { // c\n radius 1 }//d", "sphere {  // c\n  radius 1\n}  //d\n"},
       {"sphere { /* a */ radius 1 }", "sphere { /* a */ radius 1 }\n"},
       {"/* a */ /* b */ sphere { }", "/* a */ /* b */ sphere { }\n"},
       {"sphere { }\n// below\n  // and below\ncube { }", "sphere { }\n// below\n// and below\ncube { }\n"},
-      {"\xEF\xBB\xBFsphere { }\r\n\r\n\r\n/* a\r\n b */\rcube { }\r", "sphere { }\n\n/* a\n b */\ncube { }\n"},
-      {"sphere { matrix 1 0 0 0\n0 1 0 0\n0 0 1 0 }", "sphere {\n  matrix 1 0 0 0\n      0 1 0 0\n      0 0 1 0\n}\n"},
+      {"\xEF\xBB\xBFsphere { }\r\n\r\n\r\n/* a\r\n b */\rcube { }\r",
+       "sphere { }\n\n/* a\n b */\ncube { }\n"},
+      {"sphere { matrix 1 0 0 0\n0 1 0 0\n0 0 1 0 }",
+       "sphere {\n  matrix 1 0 0 0\n      0 1 0 0\n      0 0 1 0\n}\n"},
       {"let a = max(\n1,\n2\n)", "let a = max(\n    1,\n    2\n)\n"},
       {"include\n  \"a  b.txt\"", "include \"a  b.txt\"\n"},
   }));
@@ -171,7 +188,8 @@ TEST_CASE("canonical form by examples") {
 TEST_CASE("a block has 100 columns for one line, of which its indentation takes some") {
   // Characters count, not bytes.
   const std::string name(100 - std::string("sphere  { /* ü */ }").size() + 1, 'n');
-  const std::string fits = "sphere " + name + " { /* ü */ }\n", too_wide = "sphere n" + name + " { /* ü */ }\n";
+  const std::string fits = "sphere " + name + " { /* ü */ }\n",
+                    too_wide = "sphere n" + name + " { /* ü */ }\n";
   REQUIRE(formatted(fits) == fits);
   REQUIRE(formatted(too_wide) == "sphere n" + name + " {  /* ü */\n}\n");
   REQUIRE(formatted("group {\n" + fits + "}") == "group {\n  sphere " + name + " {  /* ü */\n  }\n}\n");
