@@ -43,25 +43,48 @@ std::vector<glm::ivec2> pixels_in_blocks(const Tile& tile) {
   return pixels;
 }
 
+// A part of the time that the shutter is open, of which its middle stands for the whole, and the samples that fall in it.
+struct Slice {
+  double time;
+  int first_sample, end_sample;
+};
+
+// With a closed shutter one slice, the moment itself. Sample k belongs to slice floor(k n / samples) of n.
+std::vector<Slice> cut_into_slices(double time, const RenderSettings& settings) {
+  constexpr int kMostSlices = 64;
+  if (!(settings.shutter > 0)) return {{time, 0, settings.samples}};
+  const int count = std::min(settings.samples, kMostSlices);
+  const auto first_sample = [&](int slice) {
+    return static_cast<int>((std::int64_t{slice} * settings.samples + count - 1) / count);
+  };
+  std::vector<Slice> slices;
+  for (int i = 0; i < count; ++i) {
+    slices.push_back({time + settings.shutter * (i + 0.5) / count, first_sample(i), first_sample(i + 1)});
+  }
+  return slices;
+}
+
+// Renders the samples of one slice of time. Between slices the image holds sums.
 class TileRenderer {
  public:
-  TileRenderer(const Scene& scene, const RenderSettings& settings, Image& image)
-      : scene_(scene), settings_(settings), image_(image) {}
+  TileRenderer(const Scene& scene, const RenderSettings& settings, const Slice& slice, Image& image)
+      : scene_(scene), settings_(settings), slice_(slice), image_(image) {}
 
-  /// Writes the tile's pixels; returns how many rays that took.
+  /// Adds to the tile's pixels, and after the last sample divides them; returns how many rays that took.
   std::uint64_t render(const Tile& tile) const {
     const std::vector<glm::ivec2> pixels = pixels_in_blocks(tile);
-    std::vector<Color3f> sums(pixels.size(), Color3f(0)), colors(pixels.size());
+    std::vector<Color3f> sums(pixels.size()), colors(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) sums[i] = image_.at(pixels[i].x, pixels[i].y);
     std::vector<Ray3f> rays(pixels.size());
     PixelColors tracer(scene_);
-    for (int sample = 0; sample < settings_.samples; ++sample) {
+    for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
       for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = camera_ray(pixels[i].x, pixels[i].y, sample);
       tracer.trace(rays, settings_.bounces, colors);
       for (std::size_t i = 0; i < pixels.size(); ++i) sums[i] += colors[i];
     }
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      image_.set(pixels[i].x, pixels[i].y, sums[i] / static_cast<float>(settings_.samples));
-    }
+    const bool is_last = slice_.end_sample == settings_.samples;
+    const float divisor = is_last ? static_cast<float>(settings_.samples) : 1.0F;
+    for (std::size_t i = 0; i < pixels.size(); ++i) image_.set(pixels[i].x, pixels[i].y, sums[i] / divisor);
     return tracer.rays();
   }
 
@@ -82,6 +105,7 @@ class TileRenderer {
 
   const Scene& scene_;
   const RenderSettings& settings_;
+  const Slice& slice_;
   Image& image_;
 };
 
@@ -111,18 +135,22 @@ Image render(const SceneAt& scene_at, double time, const RenderSettings& setting
   Image image(settings.width, settings.height);
   std::atomic<std::uint64_t> rays = 0;
   const std::vector<Tile> tiles = cut_into_tiles(settings.width, settings.height);
-  Progress progress(observer, tiles.size());
+  const std::vector<Slice> slices = cut_into_slices(time, settings);
+  Progress progress(observer, tiles.size() * slices.size());
   double build_seconds = 0;
   run_with_threads(settings.threads, [&] {
-    const auto start = std::chrono::steady_clock::now();
-    const std::shared_ptr<const Scene> scene = scene_at(time);
-    build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const TileRenderer renderer(*scene, settings, image);
-    parallel_for(tiles.size(), [&](std::size_t i) {
+    for (const Slice& slice : slices) {
       if (progress.is_stopped()) return;
-      rays += renderer.render(tiles[i]);
-      progress.tile_done();
-    });
+      const auto start = std::chrono::steady_clock::now();
+      const std::shared_ptr<const Scene> scene = scene_at(slice.time);
+      build_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const TileRenderer renderer(*scene, settings, slice, image);
+      parallel_for(tiles.size(), [&](std::size_t i) {
+        if (progress.is_stopped()) return;
+        rays += renderer.render(tiles[i]);
+        progress.tile_done();
+      });
+    }
   });
   if (progress.is_stopped()) throw Error(ErrorKind::kInterrupted, "interrupted");
   if (statistics != nullptr) {

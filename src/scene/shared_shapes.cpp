@@ -1,4 +1,5 @@
 // Shapes that stand in many places.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,9 +11,16 @@
 namespace raytracer {
 namespace {
 
-// The largest length of a row of m: how far it can stretch a length.
+// How far m can stretch a length, at most: its spectral norm is the root of that of mᵀm, which no sum of a row of
+// magnitudes is below. Exact where the axes stay at right angles.
 double stretch(const glm::dmat3& m) {
-  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+  const glm::dmat3 square = glm::transpose(m) * m;
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d magnitudes = glm::abs(square[i]);
+    largest = std::max(largest, magnitudes.x + magnitudes.y + magnitudes.z);
+  }
+  return std::sqrt(largest);
 }
 
 }  // namespace

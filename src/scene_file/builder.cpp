@@ -70,6 +70,8 @@ void Builder::try_unused_definitions(const Surroundings& top) {
   for (const auto& definition : definitions) {
     if (halted_ || used_definitions_.contains(definition->node)) continue;
     const std::size_t lights = draft_.scene.lights.size();
+    const std::uint64_t shapes_made = shapes_made_, lights_made = lights_made_;
+    const bool used_time = evaluator_.uses_time();
     ShapeBatch discarded;
     Surroundings inside = top;
     inside.is_top = false;
@@ -79,6 +81,9 @@ void Builder::try_unused_definitions(const Surroundings& top) {
     build_body(*definition, definition->defaults, inside, {});
     store_.stop_recording();
     draft_.scene.lights.resize(lights);
+    shapes_made_ = shapes_made;
+    lights_made_ = lights_made;
+    if (!used_time) evaluator_.forget_time();
   }
 }
 
@@ -137,6 +142,7 @@ void Builder::report_unknown_kind(const BlockNode& block, const Surroundings& ar
   std::string_view nearest = nearest_word(word, known);
   std::vector<Note> notes;
   std::string suggestion = nearest.empty() ? "'raytracer help' lists all kinds" : fmt::format("did you mean '{}'?", nearest);
+  if (word == "elif" || word == "elseif") suggestion = "else if … { … }";
   if (const SyntaxTree* tree = files_.tree_of(*around.source)) {
     for (const ItemNode& item : tree->items) {
       const auto* define = std::get_if<const DefineNode*>(&item);
@@ -339,20 +345,27 @@ void Builder::note_shape(const Place& place) {
 }
 
 void Builder::warn_of_unused_names(const SyntaxTree& main) {
+  constexpr std::size_t kMostLookedAt = 200;  // more are not told anyway, and each costs a look through the text
+  std::size_t looked_at = 0;
+  const auto warn = [&](const Place& place, const std::string& phrase, const std::string& name) {
+    if (++looked_at < kMostLookedAt && files_.is_mentioned_twice(phrase)) return;
+    diagnostics_.warning(place, fmt::format("'{}' is never used", name));
+  };
   for (const MaterialUse& use : material_uses_) {
     // A library of materials that is included is not meant to be used whole.
     if (use.used || use.place.source != main.source) continue;
-    diagnostics_.warning(use.place, fmt::format("'material {}' is never used", files_.names().text(use.name)));
+    const std::string name = fmt::format("material {}", files_.names().text(use.name));
+    warn(use.place, name, name);
   }
   for (const auto& definition : top_definitions_) {
     if (definition->source != main.source || used_definitions_.contains(definition->node)) continue;
-    diagnostics_.warning({main.source, definition->node->name_span}, fmt::format("'{}' is never used", definition->name));
+    warn({main.source, definition->node->name_span}, definition->name, definition->name);
   }
   for (const ItemNode& item : main.items) {
     const auto* let = std::get_if<const LetNode*>(&item);
     if (let == nullptr || evaluator_.was_used(*let)) continue;
-    diagnostics_.warning({main.source, (*let)->name_span},
-                         fmt::format("'{}' is never used", main.source->text((*let)->name_span)));
+    const std::string name(main.source->text((*let)->name_span));
+    warn({main.source, (*let)->name_span}, name, name);
   }
 }
 

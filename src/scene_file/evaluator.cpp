@@ -233,9 +233,23 @@ Value Evaluator::compute_name(const Expression& e, const Scene& scene) {
     diagnostics_.error(place, fmt::format("'{}' is not a number", name),
                        "numbers look like 1, -0.5 or 1.5e-3");
   } else {
-    diagnostics_.error(place, fmt::format("there is no '{}'", name), suggestion_for(name, scene.visibility));
+    report_unknown(name, place, scene.visibility);
   }
   return {};
+}
+
+// A name that stands for nothing, or for nothing yet.
+void Evaluator::report_unknown(std::string_view name, const Place& place, const Visibility& visibility) {
+  const std::string_view text = place.source->text();
+  const std::string later = fmt::format("let {} ", name);
+  const std::size_t below = diagnostics_.is_listening() ? text.find(later, place.span.end) : std::string_view::npos;
+  if (below == std::string_view::npos) {
+    return diagnostics_.error(place, fmt::format("there is no '{}'", name), suggestion_for(name, visibility));
+  }
+  const auto begin = static_cast<std::uint32_t>(below + 4);
+  const Span there = {begin, begin + static_cast<std::uint32_t>(name.size())};
+  diagnostics_.error(place, fmt::format("there is no '{}' yet", name), "a name is defined before it is used",
+                     {{{place.source, there}, "it is defined here, below its use"}});
 }
 
 Value Evaluator::compute_vector(const Expression& e, const Scene& scene) {

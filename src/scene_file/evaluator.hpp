@@ -80,6 +80,7 @@ class Evaluator {
   Value compute_chain(const Expression& e, const Scene& scene);
   Value compute_link(const Expression& e, const Value& left, const Scene& scene);
   Value compute_name(const Expression& e, const Scene& scene);
+  void report_unknown(std::string_view name, const Place& place, const Visibility& visibility);
   Value compute_vector(const Expression& e, const Scene& scene);
   Value compute_sign(const Expression& e, const Scene& scene);
   Value compute_arithmetic(const Expression& e, const Value& a, const Value& b, const Scene& scene);

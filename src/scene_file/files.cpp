@@ -156,6 +156,22 @@ const SyntaxTree* Files::tree_of(const Source& source) const {
   return nullptr;
 }
 
+bool Files::is_mentioned_twice(std::string_view word) const {
+  const auto is_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  int count = 0;
+  for (const File& file : files_) {
+    const std::string_view text = file.source->text();
+    for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + word.size())) {
+      const bool begins = at == 0 || !is_word(text[at - 1]);
+      const bool ends = at + word.size() >= text.size() || !is_word(text[at + word.size()]);
+      if (begins && ends && ++count > 1) return true;
+    }
+  }
+  return false;
+}
+
 std::vector<std::string> Files::read_paths() const {
   std::vector<std::string> paths;
   for (const File& file : files_) {

@@ -33,6 +33,8 @@ class Files {
 
   std::vector<std::string> read_paths() const;
   Names& names() { return names_; }
+  /// Whether any text of the scene has the word twice: what a branch not taken uses is not unused.
+  bool is_mentioned_twice(std::string_view word) const;
 
  private:
   struct File {

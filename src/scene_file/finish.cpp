@@ -115,9 +115,19 @@ bool is_anything_in_view(const SceneDescription& scene) {
   });
 }
 
+// Each sample shows a moment of its own.
+void warn_of_ghosts(const CameraDraft& camera, int samples, Diagnostics& diagnostics) {
+  constexpr int kFewestSamples = 8;
+  if (samples >= kFewestSamples) return;
+  diagnostics.warning(camera.place,
+                      samples == 1 ? "with 1 sample an open shutter blurs nothing"
+                                   : fmt::format("motion blur with {0} samples shows {0} ghosts", samples),
+                      "samples 16");
+}
+
 }  // namespace
 
-RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::string& name,
+RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::string& name, bool depends_on_time,
                       Diagnostics& diagnostics) {
   RenderSettings settings;
   settings.width = options.width.value_or(draft.image_size[0]);
@@ -138,6 +148,10 @@ RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::
   const CameraDraft& camera = chosen_camera(draft, options.camera);
   const FieldOfView fov = field_of_view(camera, aspect);
   scene.camera = Camera(camera.position, camera.look_at, camera.up, fov.half_width, fov.half_height);
+  if (depends_on_time && camera.shutter > 0) {
+    settings.shutter = camera.shutter / draft.fps;
+    warn_of_ghosts(camera, settings.samples, diagnostics);
+  }
 
   if (scene.lights.empty() && scene.ambient == Color3f(0)) {
     // Without falloff the surface nearest to the eye is white if it faces it, however far away it is.

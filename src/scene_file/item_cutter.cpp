@@ -14,6 +14,11 @@ constexpr std::size_t kMostHeaderWords = 3;  // light spot lamp
 
 bool ItemCutter::is_needed(std::span<const ItemNode> items) const {
   for (const ItemNode& item : items) {
+    const auto* block = std::get_if<const BlockNode*>(&item);
+    if (block != nullptr) {  // `center 0 0 z material { … }` was read as a block `z` of the name `material`
+      const std::string_view word = source_.text((*block)->kind);
+      if (!(*block)->words.empty() && !is_kind_(word) && find_property(row_, word) == nullptr) return true;
+    }
     const auto* property = std::get_if<const PropertyNode*>(&item);
     if (property == nullptr) continue;
     if (find_property(row_, source_.text((*property)->name)) == nullptr || (*property)->values.empty()) return true;
@@ -54,7 +59,8 @@ void ItemCutter::flush(const BlockNode* body) {
     const PropertyRow* row = find_property(row_, text(run_[i]));
     const bool names_material =
         row != nullptr && row->type == PropertyType::kMaterial && row_.has_children && i + 2 == run_.size();
-    if (body != nullptr && (is_header(i, body) || names_material)) {
+    const bool is_unknown = row == nullptr && is_all_words(i) && run_.size() - i <= kMostHeaderWords;
+    if (body != nullptr && (is_unknown || is_header(i, body) || names_material)) {
       add_block(i, *body);
       break;
     }
@@ -63,14 +69,16 @@ void ItemCutter::flush(const BlockNode* body) {
   run_.clear();
 }
 
+bool ItemCutter::is_all_words(std::size_t first) const {
+  return std::all_of(run_.begin() + static_cast<std::ptrdiff_t>(first), run_.end(),
+                     [](const ValueNode& value) { return value.kind == ValueKind::kWord; });
+}
+
 // Whether the words from here to the body are the header of a block.
 bool ItemCutter::is_header(std::size_t first, const BlockNode* body) const {
   const std::size_t count = run_.size() - first;
   if (body == nullptr || count == 0 || count > kMostHeaderWords) return false;
-  const bool all_words =
-      std::all_of(run_.begin() + static_cast<std::ptrdiff_t>(first), run_.end(),
-                  [](const ValueNode& value) { return value.kind == ValueKind::kWord; });
-  if (!all_words) return false;
+  if (!is_all_words(first)) return false;
   const std::string_view word = text(run_[first]);
   return count == 1 || (is_kind_(word) && find_property(row_, word) == nullptr);
 }

@@ -30,6 +30,7 @@ class ItemCutter {
   ValueNode as_word(Span span) const;
   void flush(const BlockNode* body);
   std::size_t cut_property(std::size_t first, const PropertyRow* row, const BlockNode* body);
+  bool is_all_words(std::size_t first) const;
   bool is_header(std::size_t first, const BlockNode* body) const;
   bool takes(const PropertyRow* row, std::size_t first, std::size_t next, const BlockNode* body) const;
   void add_block(std::size_t first, const BlockNode& body);

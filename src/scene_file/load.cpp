@@ -113,7 +113,8 @@ class ScenesOverTime {
     builder.store_shapes();
     Evaluated evaluated;
     evaluated.time = time;
-    const RenderSettings settings = scene_file::finish(builder.draft(), text_->options, text_->name, diagnostics);
+    const RenderSettings settings =
+        scene_file::finish(builder.draft(), text_->options, text_->name, depends_on_time_, diagnostics);
     if (with_moment) evaluated.moment = {settings, hasher.finish(settings, text_->options.camera)};
     evaluated.description = std::move(builder.draft().scene);
     return evaluated;
@@ -150,11 +151,11 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
     builder.warn_of_unused_names(*scene_text->tree);
     builder.store_shapes();
     scene_file::SceneDraft& draft = builder.draft();
-    loaded.settings = scene_file::finish(draft, options, name, diagnostics);
+    loaded.depends_on_time = builder.evaluator().uses_time();
+    loaded.settings = scene_file::finish(draft, options, name, loaded.depends_on_time, diagnostics);
     loaded.shapes = builder.shapes_made();
     loaded.animation = {draft.duration, draft.fps};
     scene_text->fps = draft.fps;
-    loaded.depends_on_time = builder.evaluator().uses_time();
     for (const Builder::TopLevelLet& let : builder.top_level_lets()) {
       loaded.parameters.push_back({let.name, scene_file::to_source(let.value)});
     }

@@ -290,12 +290,7 @@ const IncludeNode* Parser::parse_include() {
     if (!tokens_.is(TokenType::kBad)) {
       tokens_.error(include.keyword, "'include' needs the name of a file", "include \"parts.txt\"");
     }
-    if (tokens_.is(TokenType::kBad) || (tokens_.is(TokenType::kWord) && find_kind(tokens_.text()) == nullptr)) tokens_.advance();
-    if (tokens_.is(TokenType::kOpenBrace)) {
-      tokens_.mute(true);
-      skip_nested_braces();
-      tokens_.mute(false);
-    }
+    skip_to_statement();
     return nullptr;
   }
   include.file = take_value();
@@ -304,7 +299,8 @@ const IncludeNode* Parser::parse_include() {
 
 // The word that a statement gives a meaning to.
 bool Parser::take_new_name(Span keyword, std::string_view what, Span& span, NameId& name) {
-  if (!tokens_.is(TokenType::kWord)) {
+  const bool is_clause = tokens_.is_word("from") || tokens_.is_word("to") || tokens_.is_word("step");
+  if (!tokens_.is(TokenType::kWord) || is_clause) {
     if (!tokens_.is(TokenType::kBad)) {
       tokens_.error(keyword, fmt::format("'{}' needs a name", tokens_.text(keyword)), std::string(what));
     }
@@ -369,9 +365,7 @@ const LetNode* Parser::parse_let() {
 const Expression* Parser::parse_clause(std::string_view keyword, Span statement) {
   if (!tokens_.is_word(keyword)) {
     if (!tokens_.is(TokenType::kBad)) {
-      const bool is_other_way = keyword == "from" && (tokens_.is_operator("=") || tokens_.is_word("in"));
-      tokens_.error(is_other_way ? tokens_.current().span : statement, fmt::format("'for' needs a '{}'", keyword),
-                    "for i from 0 to 9 { … }");
+      tokens_.error(statement, fmt::format("'for' needs a '{}'", keyword), "for i from 0 to 9 { … }");
     }
     return nullptr;
   }
@@ -492,6 +486,16 @@ bool Parser::parse_parameter(std::vector<ParameterNode>& parameters) {
     }
   }
   tokens_.advance();
+  if (tokens_.is_operator("=")) {
+    tokens_.error(tokens_.current().span, "a default follows its parameter without '='", fmt::format("({} 1)", word));
+    tokens_.mute(true);
+    while (!tokens_.is(TokenType::kCloseParenthesis) && !tokens_.is(TokenType::kOpenBrace) &&
+           !tokens_.is(TokenType::kCloseBrace) && !tokens_.is(TokenType::kEnd)) {
+      tokens_.advance();
+    }
+    tokens_.mute(false);
+    return false;
+  }
   std::vector<ValueNode> values;
   while (current_is_value() || tokens_.is(TokenType::kWord)) values.push_back(take_value());
   if (values.empty()) {

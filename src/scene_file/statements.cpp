@@ -151,8 +151,9 @@ void Builder::build_if(const IfNode& choice, const Surroundings& around) {
   inside.definition_base = definition_height;
   inside.depends_on_time = around.depends_on_time || condition.depends_on_time;
   build_items(condition.is_true() ? choice.items : choice.else_items, inside);
+  // A definition chosen by a condition stays, unless it may see a let that goes.
+  if (bindings.height() > value_height) definitions_.pop_to(definition_height);
   bindings.pop_to(value_height);
-  definitions_.pop_to(definition_height);
 }
 
 Value Builder::parameter_default(const ParameterNode& parameter, const Surroundings& around) {

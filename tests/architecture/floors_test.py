@@ -45,7 +45,8 @@ LIBRARIES = {
 EVERYWHERE = r"fmt/\w+\.h|glm/[\w/]+\.hpp"
 SYSTEM = r"[a-z_0-9]+|(sys/)?[a-z_]+\.h|[a-z]mmintrin\.h"
 # Our own headers over a library, and who may include them.
-WRAPPERS = {"scene/embree.hpp": {"src/scene/accelerator.cpp"}}
+WRAPPERS = {"scene/embree.hpp": {"src/scene/accelerator.cpp", "src/scene/callbacks.hpp"},
+            "scene/callbacks.hpp": {"src/scene/accelerator.cpp", "src/scene/callbacks.cpp"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 

@@ -200,7 +200,7 @@ TEST_CASE("a text with a slip is not formatted") {
   REQUIRE(result.text.empty());
   REQUIRE(result.diagnostics.size() == 1);
   REQUIRE(result.diagnostics[0].file == "bad.txt");
-  REQUIRE(result.diagnostics[0].line == 3);
+  REQUIRE(result.diagnostics[0].line == 2);
 }
 
 TEST_CASE("formatting keeps the tokens and comments of every scene") {

@@ -45,7 +45,14 @@ std::shared_ptr<const Scene> scene_of(const std::string& text, const LoadOptions
 // Where the shapes' middles are along x: the tests below place spheres of radius 0.25 there.
 std::vector<float> middles(const Scene& scene) {
   std::vector<float> all;
-  for (const auto& shape : scene.description().shapes) all.push_back(shape->bounds().center().x);
+  const SceneDescription& description = scene.description();
+  for (const auto& shape : description.shapes) all.push_back(shape->bounds().center().x);
+  for (const auto& instance : description.instances) {
+    const raytracer::SharedShapes& shared = *description.shared[instance.shared];
+    for (std::uint32_t i = 0; i < shared.size(); ++i) {
+      all.push_back(instance.bounds(shared.shape(i).bounds()).center().x);
+    }
+  }
   return all;
 }
 std::vector<float> middles(const std::string& text, const LoadOptions& options = {}) {
@@ -191,7 +198,7 @@ TEST_CASE("an inner let hides an outer one until its block ends", "[statements]"
 TEST_CASE("a let is not seen behind its block", "[statements]") {
   check_mistake("group { let a = 2 sphere { } }\nsphere { radius a }", 2, 17, "'a'");
   check_mistake("for i from 0 to 1 { let a = i }\nsphere { radius a }", 2, 17, "'a'");
-  check_mistake("for i from 0 to 1 { }\nsphere { radius (i) }", 2, 17, "'i'");
+  check_mistake("for i from 0 to 1 { }\nsphere { radius (i) }", 2, 18, "'i'");
   check_mistake("if true { let a = 1 }\nsphere { radius a }", 2, 17, "'a'");
   check_mistake("define d { let a = 1 sphere { radius a } }\nd { }\nsphere { radius a }", 3, 17, "'a'");
   check_mistake("sphere { let a = 1 radius a }\nsphere { radius a }", 2, 17, "'a'");
