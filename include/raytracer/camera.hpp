@@ -5,15 +5,15 @@
 
 namespace raytracer {
 
-/// A pinhole camera. At `position`, looking along the unit vector `forward`; `right` and `up` are unit length and
-/// across it.
+/// A pinhole camera. At `position`, looking along the unit vector `forward`; `right` and `up` are unit length
+/// and across it.
 class Camera {
  public:
   Camera() = default;
 
-  /// Looks from `position` to `look_at` with `up` upwards in the picture. `half_width` is the tangent of half the
-  /// horizontal field of view, `half_height` of half the vertical one. Throws Error (kScene) where position and
-  /// look_at coincide or `up` lies along the view.
+  /// Looks from `position` to `look_at` with `up` upwards in the picture. `half_width` is the tangent of half
+  /// the horizontal field of view, `half_height` of half the vertical one. Throws Error (kScene) where
+  /// position and look_at coincide or `up` lies along the view.
   Camera(const Vector3d& position, const Vector3d& look_at, const Vector3d& up, double half_width,
          double half_height);
 

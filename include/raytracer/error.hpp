@@ -14,8 +14,8 @@ enum class ErrorKind {
   kInterrupted = 4,  ///< the observer asked to stop
 };
 
-/// Thrown by every function of the library that cannot do what it was asked. The message is a sentence for the
-/// user without a trailing full stop.
+/// Thrown by every function of the library that cannot do what it was asked. The message is a sentence for
+/// the user without a trailing full stop.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}

@@ -20,10 +20,11 @@ struct Light {
   Kind kind = Kind::kPoint;
   Falloff falloff = Falloff::kLinear;  ///< of point and spot
   Vector3f position{0};                ///< world space; of point and spot
-  Vector3f direction{0, -1, 0};        ///< world space, unit length, the way the light travels; directional and spot
-  Color3f lambda{255};                 ///< intensity times colour, in the 0..255 units of the buffers
-  float cos_inner = 1;                 ///< spot: full strength inside the cone of this cosine …
-  float cos_outer = -1;                ///< … and none outside of this one
+  Vector3f direction{0, -1,
+                     0};  ///< world space, unit length, the way the light travels; directional and spot
+  Color3f lambda{255};    ///< intensity times colour, in the 0..255 units of the buffers
+  float cos_inner = 1;    ///< spot: full strength inside the cone of this cosine …
+  float cos_outer = -1;   ///< … and none outside of this one
 };
 
 }  // namespace raytracer

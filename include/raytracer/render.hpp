@@ -23,12 +23,13 @@ struct RenderSettings {
 /// The scene at a time in seconds. The render asks for one time after another and keeps at most one alive.
 using SceneAt = std::function<std::shared_ptr<const Scene>(double time)>;
 
-/// Told of what happens while a picture is made. The functions are called from any of the render's threads, one
-/// at a time.
+/// Told of what happens while a picture is made. The functions are called from any of the render's threads,
+/// one at a time.
 class RenderObserver {
  public:
   virtual ~RenderObserver() = default;
-  /// `done` of `total` tiles, counted once per slice of time, are finished. Return false to stop: render() then throws Error (kInterrupted).
+  /// `done` of `total` tiles, counted once per slice of time, are finished. Return false to stop: render()
+  /// then throws Error (kInterrupted).
   virtual bool on_progress(std::uint64_t done, std::uint64_t total) = 0;
 };
 
@@ -38,9 +39,9 @@ struct RenderStatistics {
   double build_seconds = 0;  ///< spent waiting for `scene_at`
 };
 
-/// Renders the scene at `time`, or with an open shutter from then on: that time is cut into as many slices as there are
-/// samples, at most 64, and the samples of a slice see the scene at its middle. The picture is a pure function of scene and settings: the same bytes for any
-/// number of threads. `observer` may be null.
+/// Renders the scene at `time`, or with an open shutter from then on: that time is cut into as many slices as
+/// there are samples, at most 64, and the samples of a slice see the scene at its middle. The picture is a
+/// pure function of scene and settings: the same bytes for any number of threads. `observer` may be null.
 Image render(const SceneAt& scene_at, double time, const RenderSettings& settings,
              RenderObserver* observer = nullptr, RenderStatistics* statistics = nullptr);
 

@@ -20,15 +20,16 @@ class Accelerator;
 /// How many rays a scene takes at once.
 inline constexpr std::size_t kMostRays = 16;
 
-/// Whether rays that are asked at once start close together and go the same way. It changes nothing but the time taken.
+/// Whether rays that are asked at once start close together and go the same way. It changes nothing but the
+/// time taken.
 enum class Coherence : std::uint8_t { kIncoherent, kCoherent };
 
-/// Finite shapes with what they are made of, stored once with the tree over them, however many places in a scene, and however
-/// many scenes, they stand in. Immutable.
+/// Finite shapes with what they are made of, stored once with the tree over them, however many places in a
+/// scene, and however many scenes, they stand in. Immutable.
 class SharedShapes {
  public:
-  /// `material_of` holds an index into `materials` per shape. Throws Error (kUsage) for an index or a shape that does not
-  /// fit.
+  /// `material_of` holds an index into `materials` per shape. Throws Error (kUsage) for an index or a shape
+  /// that does not fit.
   SharedShapes(std::vector<std::unique_ptr<Shape>> shapes, std::vector<std::uint32_t> material_of,
                std::vector<Material> materials);
   ~SharedShapes();
@@ -51,8 +52,8 @@ class SharedShapes {
 
 /// A place where shared shapes stand.
 struct Instance {
-  std::uint32_t shared = 0;       ///< an index into SceneDescription::shared
-  glm::mat3 linear{1.0f};         ///< from the shapes' own space to the world
+  std::uint32_t shared = 0;  ///< an index into SceneDescription::shared
+  glm::mat3 linear{1.0f};    ///< from the shapes' own space to the world
   Vector3f translation{0};
 
   bool is_identity() const { return linear == glm::mat3(1.0f) && translation == Vector3f(0); }
@@ -68,10 +69,10 @@ struct SceneDescription {
   std::vector<Instance> instances;
   std::vector<Light> lights;
   Camera camera;
-  Color3f background{0};         ///< what a ray sees that hits nothing; 1 is white
-  Color3f ambient{0};            ///< light from everywhere on the diffuse share; 1 shows a surface in its own colour
-  std::optional<float> epsilon;  ///< the paper's constant offset along the normal; without it the offset follows
-                                 ///< the rounding error at the point
+  Color3f background{0};  ///< what a ray sees that hits nothing; 1 is white
+  Color3f ambient{0};     ///< light from everywhere on the diffuse share; 1 shows a surface in its own colour
+  std::optional<float> epsilon;  ///< the paper's constant offset along the normal; without it the offset
+                                 ///< follows the rounding error at the point
 };
 
 /// Immutable: any number of threads may ask it at once.
@@ -88,13 +89,13 @@ class Scene {
   /// Whether anything lies on the ray between t_min and t_max.
   bool is_occluded(const Ray3f& ray) const;
 
-  /// The very same for up to kMostRays rays at once; bit i of the result is the answer for ray i. `hits` is as long as
-  /// `rays`.
+  /// The very same for up to kMostRays rays at once; bit i of the result is the answer for ray i. `hits` is
+  /// as long as `rays`.
   std::uint32_t is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Coherence coherence) const;
   std::uint32_t is_occluded(std::span<const Ray3f> rays, Coherence coherence) const;
 
-  /// The paper's recursion: what the ray sees, in the 0..255 units of the buffers, following at most `bounces_left`
-  /// reflections.
+  /// The paper's recursion: what the ray sees, in the 0..255 units of the buffers, following at most
+  /// `bounces_left` reflections.
   Color3f get_pixel_color(const Ray3f& ray, int bounces_left) const;
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const {

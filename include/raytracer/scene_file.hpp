@@ -15,8 +15,8 @@ namespace raytracer {
 
 enum class Severity : std::uint8_t { kError, kWarning };
 
-/// One mistake, or one thing worth knowing, and its place. Lines and columns count from 1, columns in characters;
-/// line 0 means the scene as a whole.
+/// One mistake, or one thing worth knowing, and its place. Lines and columns count from 1, columns in
+/// characters; line 0 means the scene as a whole.
 struct Diagnostic {
   Severity severity = Severity::kError;
   std::string file;
@@ -24,9 +24,9 @@ struct Diagnostic {
   std::uint32_t end_line = 0, end_column = 0;  ///< just behind the last character
   std::string message;                         ///< what was found
   std::string suggestion;                      ///< what would be right; may be empty
-  std::string source_line;                     ///< the text of `line`; of a very long one the part around `column`
-  std::uint32_t source_column = 1;             ///< where in the line source_line begins
-  std::vector<Diagnostic> notes;               ///< other places that belong to it
+  std::string source_line;          ///< the text of `line`; of a very long one the part around `column`
+  std::uint32_t source_column = 1;  ///< where in the line source_line begins
+  std::vector<Diagnostic> notes;    ///< other places that belong to it
 };
 
 /// The message as a compiler prints it: place, line, underline, suggestion; ends with a line feed.
@@ -37,16 +37,17 @@ std::string to_json(const Diagnostic& diagnostic);
 
 /// How much a scene may ask for. Past a limit it is refused with an error at the place that asked.
 struct Limits {
-  std::uint64_t include_depth = 32;           ///< files that include each other
-  std::uint64_t nesting = 256;                ///< uses of definitions inside each other
-  std::uint64_t shapes = 50'000'000;          ///< shapes made, instances counted once
-  std::uint64_t steps = 1'000'000'000;        ///< steps of evaluation
+  std::uint64_t include_depth = 32;     ///< files that include each other
+  std::uint64_t nesting = 256;          ///< uses of definitions inside each other
+  std::uint64_t shapes = 50'000'000;    ///< shapes made, instances counted once
+  std::uint64_t steps = 1'000'000'000;  ///< steps of evaluation
 };
 
 /// A top-level `let` of the scene that the caller replaces: `--set name=value`.
 struct Setting {
   std::string name;
-  std::string value;  ///< as it would be written: 12, #ff8800, tomato, (1, 2, 3) or 1,2,3, or text for a string
+  std::string
+      value;  ///< as it would be written: 12, #ff8800, tomato, (1, 2, 3) or 1,2,3, or text for a string
 };
 
 /// A top-level `let`, as `raytracer params` lists it.
@@ -75,8 +76,8 @@ struct Animation {
   int frames() const;
 };
 
-/// Says all that a picture's pixels follow from: the evaluated scene and how it is rendered. What another version of the
-/// library makes of it may differ.
+/// Says all that a picture's pixels follow from: the evaluated scene and how it is rendered. What another
+/// version of the library makes of it may differ.
 using SceneHash = std::array<std::uint64_t, 2>;
 
 /// What is known of a moment before it is rendered.
@@ -89,12 +90,12 @@ struct SceneMoment {
 struct LoadedScene {
   std::vector<Diagnostic> diagnostics;
   std::vector<std::string> files_read;  ///< as canonical paths
-  RenderSettings settings;  ///< at the time 0
+  RenderSettings settings;              ///< at the time 0
   SceneAt scene_at;  ///< empty unless ok(); throws Error (kScene) where the scene is wrong at that time alone
   /// As scene_at; a scene_at for the same time right afterwards does not evaluate it once more.
   std::function<SceneMoment(double time)> moment_at;
-  /// One moment as a scene in JSON, which makes the same picture. Throws Error (kScene) as scene_at does, and where a
-  /// camera's shutter stays open for more than a moment.
+  /// One moment as a scene in JSON, which makes the same picture. Throws Error (kScene) as scene_at does, and
+  /// where a camera's shutter stays open for more than a moment.
   std::function<std::string(double time)> json_at;
   Animation animation;
   bool depends_on_time = false;
@@ -104,8 +105,8 @@ struct LoadedScene {
   bool ok() const { return static_cast<bool>(scene_at); }
 };
 
-/// Reads the scene in the file `path`. Mistakes in the scene come back as diagnostics; throws Error (kFile) when the
-/// file itself can't be read.
+/// Reads the scene in the file `path`. Mistakes in the scene come back as diagnostics; throws Error (kFile)
+/// when the file itself can't be read.
 LoadedScene load_scene_file(const std::string& path, const LoadOptions& options = {});
 
 /// Reads a scene from memory; `name` stands in its messages, its includes are relative to the current folder.

@@ -16,7 +16,8 @@ struct Hit {
   std::uint32_t shape = 0;      ///< index in the scene; written by the scene, not by the shape
   std::uint32_t primitive = 0;  ///< which part of the shape: the shape's own numbering
   float u = 0, v = 0;           ///< parameters on that part: the shape's own meaning
-  std::uint32_t instance = kNoInstance;  ///< the place of shared shapes that `shape` counts in; written by the scene
+  std::uint32_t instance =
+      kNoInstance;  ///< the place of shared shapes that `shape` counts in; written by the scene
 };
 
 /// A point on a surface, in world space.
@@ -41,13 +42,13 @@ class Shape {
   /// A box that contains every point of the shape, rounding included. Infinite for endless shapes.
   virtual Box3f bounds() const = 0;
 
-  /// Finds the nearest hit with t_min < t < t_max, from outside or inside. Fills `hit` (all but `shape` and `instance`) and
-  /// returns true; returns false and leaves `hit` untouched where there is none. The hit does not depend on
-  /// t_max beyond being nearer than it.
+  /// Finds the nearest hit with t_min < t < t_max, from outside or inside. Fills `hit` (all but `shape` and
+  /// `instance`) and returns true; returns false and leaves `hit` untouched where there is none. The hit does
+  /// not depend on t_max beyond being nearer than it.
   virtual bool is_hit(const Ray3f& ray, Hit& hit) const = 0;
 
-  /// The very same for eight rays at once. What this class does, asking is_hit() for each, is right for every shape;
-  /// shapes that are asked often do it faster.
+  /// The very same for eight rays at once. What this class does, asking is_hit() for each, is right for every
+  /// shape; shapes that are asked often do it faster.
   virtual void find_hits(const RayPacket& rays, HitPacket& hits) const;
 
   /// The full surface at a hit that is_hit() returned for this ray.

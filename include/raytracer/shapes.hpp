@@ -9,7 +9,8 @@
 namespace raytracer {
 
 /// The ball of `radius` > 0 around `center`. Any affine transform; a non-uniform scale gives an ellipsoid.
-/// Normal outwards. u runs once around y from +x towards -z (east seen from above), v from the pole -y (0) to the pole +y (1).
+/// Normal outwards. u runs once around y from +x towards -z (east seen from above), v from the pole -y (0) to
+/// the pole +y (1).
 std::unique_ptr<Shape> make_sphere(const Vector3d& center, double radius, const Transform& = {});
 
 /// The parallelogram origin + u width + v height with u, v in [0, 1]; normal along width x height.
@@ -42,7 +43,8 @@ std::unique_ptr<Shape> make_cone(const Vector3d& base, double radius, const Vect
                                  bool open, const Transform& = {});
 
 /// The ring: all points `tube_radius` > 0 away from the circle of `radius` > 0 around `center` in the plane
-/// across `axis`. A tube_radius above radius makes it cross itself (a spindle). Normal outwards from the tube.
+/// across `axis`. A tube_radius above radius makes it cross itself (a spindle). Normal outwards from the
+/// tube.
 std::unique_ptr<Shape> make_torus(const Vector3d& center, const Vector3d& axis, double radius,
                                   double tube_radius, const Transform& = {});
 

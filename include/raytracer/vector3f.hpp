@@ -52,8 +52,8 @@ struct Box3f {
   Vector3f diagonal() const { return upper - lower; }
 };
 
-/// An affine map p -> linear p + translation, in double precision: scenes compose many of them, shapes bake the
-/// product once.
+/// An affine map p -> linear p + translation, in double precision: scenes compose many of them, shapes bake
+/// the product once.
 struct Transform {
   glm::dmat3 linear{1.0};
   Vector3d translation{0.0};

@@ -8,7 +8,8 @@ Camera::Camera(const Vector3d& position, const Vector3d& look_at, const Vector3d
                double half_height)
     : position_(position) {
   const Vector3d view = look_at - position;
-  if (!(glm::length(view) > 0)) throw Error(ErrorKind::kScene, "the camera looks at the point where it stands");
+  if (!(glm::length(view) > 0))
+    throw Error(ErrorKind::kScene, "the camera looks at the point where it stands");
   const Vector3d forward = glm::normalize(view);
   const Vector3d across = glm::cross(forward, glm::normalize(up));
   if (!(glm::length(across) > 1e-6)) throw Error(ErrorKind::kScene, "the camera looks along its 'up'");

@@ -34,7 +34,8 @@ std::string option_title(const OptionRow& row) {
 // What the option is for; one of a single command other than render says so.
 std::string option_help(const OptionRow& row) {
   for (const CommandRow& command : all_commands()) {
-    if (row.commands == command.bit && command.bit != kRender) return fmt::format("{}: {}", command.name, row.help);
+    if (row.commands == command.bit && command.bit != kRender)
+      return fmt::format("{}: {}", command.name, row.help);
   }
   return std::string(row.help);
 }

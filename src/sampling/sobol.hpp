@@ -1,6 +1,6 @@
-// Points that fill the unit square evenly however many are taken: the first two dimensions of Sobol's sequence, each
-// pixel's with a scramble of its own (Owen 1995), by hashing (Laine and Karras 2011, "Stratified sampling for stochastic
-// transparency", with the constants of Vegdahl 2021).
+// Points that fill the unit square evenly however many are taken: the first two dimensions of Sobol's
+// sequence, each pixel's with a scramble of its own (Owen 1995), by hashing (Laine and Karras 2011,
+// "Stratified sampling for stochastic transparency", with the constants of Vegdahl 2021).
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,8 @@ constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits 
 
 /// Point `index` of the sequence that belongs to `seed`, in [0, 1)^2.
 constexpr Vector2f sobol_point(std::uint32_t index, std::uint32_t seed) {
-  // The second seed is a hash of the first: hashes of two numbers that differ by a constant are not independent enough.
+  // The second seed is a hash of the first: hashes of two numbers that differ by a constant are not
+  // independent enough.
   const std::uint32_t first = hash_bits(seed), second = hash_bits(first ^ 0x9E3779B9U);
   return {unit_float(owen_scramble(reverse_bits(index), first)),
           unit_float(owen_scramble(sobol_second(index), second))};

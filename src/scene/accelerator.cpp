@@ -1,5 +1,5 @@
-// Where Embree is asked. Finite shapes are the primitives of one user geometry; endless shapes stay outside of the
-// tree, which silently never visits infinite bounds.
+// Where Embree is asked. Finite shapes are the primitives of one user geometry; endless shapes stay outside
+// of the tree, which silently never visits infinite bounds.
 #include "scene/accelerator.hpp"
 
 #include <fmt/format.h>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr unsigned kAllGeometry = 0xFFFFFFFF;  // Embree 4's default mask would be 1
 
-// Embree (its rays' valid()) takes no coordinate beyond 1.844e18. Shapes end at 1e18; only a plane is met farther out,
-// and nothing in the tree can be seen from there in single precision.
+// Embree (its rays' valid()) takes no coordinate beyond 1.844e18. Shapes end at 1e18; only a plane is met
+// farther out, and nothing in the tree can be seen from there in single precision.
 constexpr float kFarthest = 1.8e18f;
 
 bool is_within_reach(const Ray3f& ray) {
@@ -29,9 +29,18 @@ bool is_within_reach(const Ray3f& ray) {
 
 // Written out whole, for Embree reads four floats at once and would have to wait for eight single stores.
 RTCRay to_embree(const Ray3f& ray) {
-  return {ray.origin.x,    ray.origin.y,    ray.origin.z,    ray.t_min, ray.direction.x,
-          ray.direction.y, ray.direction.z, 0,               ray.t_max, kAllGeometry,
-          0,               0};
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          ray.t_min,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0,
+          ray.t_max,
+          kAllGeometry,
+          0,
+          0};
 }
 
 void set_lane(RTCRay16& rays, std::size_t i, const Ray3f& ray) {
@@ -48,15 +57,16 @@ void set_lane(RTCRay16& rays, std::size_t i, const Ray3f& ray) {
   rays.id[i] = rays.flags[i] = 0;
 }
 
-// The lanes of a packet that Embree shall follow, as it wants them marked: those of the first `count` that are within
-// reach, as above.
+// The lanes of a packet that Embree shall follow, as it wants them marked: those of the first `count` that
+// are within reach, as above.
 struct alignas(64) ValidLanes {
   int lane[kMostRays];
   ValidLanes(const RTCRay16& rays, std::size_t count) {
     const auto is_near = [](float x) { return (x < kFarthest) & (x > -kFarthest); };
     for (std::size_t i = 0; i < kMostRays; ++i) {
-      const bool is_valid = (i < count) & is_near(rays.org_x[i]) & is_near(rays.org_y[i]) & is_near(rays.org_z[i]) &
-                            is_near(rays.dir_x[i]) & is_near(rays.dir_y[i]) & is_near(rays.dir_z[i]);
+      const bool is_valid = (i < count) & is_near(rays.org_x[i]) & is_near(rays.org_y[i]) &
+                            is_near(rays.org_z[i]) & is_near(rays.dir_x[i]) & is_near(rays.dir_y[i]) &
+                            is_near(rays.dir_z[i]);
       lane[i] = is_valid ? -1 : 0;
     }
   }
@@ -85,8 +95,18 @@ void attach_instance(RTCScene scene, RTCScene shared, const Instance& instance, 
   RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, shared);
   const glm::mat3& m = instance.linear;
-  const float columns[12] = {m[0].x, m[0].y, m[0].z, m[1].x, m[1].y, m[1].z, m[2].x, m[2].y, m[2].z,
-                             instance.translation.x, instance.translation.y, instance.translation.z};
+  const float columns[12] = {m[0].x,
+                             m[0].y,
+                             m[0].z,
+                             m[1].x,
+                             m[1].y,
+                             m[1].z,
+                             m[2].x,
+                             m[2].y,
+                             m[2].z,
+                             instance.translation.x,
+                             instance.translation.y,
+                             instance.translation.z};
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, id);
@@ -111,8 +131,8 @@ struct Accelerator::Tree {
     if (scene != nullptr) rtcReleaseScene(scene);
   }
 
-  // Asks the endless shapes. So near a tie that only the order of the shapes can settle it both are looked at: the ray
-  // for the tree ends just behind the hit.
+  // Asks the endless shapes. So near a tie that only the order of the shapes can settle it both are looked
+  // at: the ray for the tree ends just behind the hit.
   bool is_endless_hit(Ray3f& ray, Hit& hit) const {
     if (endless.is_empty() || !endless.is_hit(ray, hit)) return false;
     ray.t_max = std::nextafter(hit.t, kInfinity);
@@ -132,8 +152,8 @@ struct Accelerator::Tree {
     // Shared shapes are all finite: there a primitive is a shape.
     const std::uint32_t shape = is_own ? finite.indices[found.primitive] : found.primitive;
     if (has_hit && found.t >= hit.t && (!is_own || shape > hit.shape)) return true;
-    hit = {found.t, shape, std::bit_cast<std::uint32_t>(found.part), found.u, found.v,
-           is_own ? kNoInstance : found.instance_id - 1};
+    hit = {found.t, shape,   std::bit_cast<std::uint32_t>(found.part),
+           found.u, found.v, is_own ? kNoInstance : found.instance_id - 1};
     return true;
   }
 };
@@ -175,8 +195,8 @@ bool Accelerator::is_hit(const Ray3f& ray, Hit& hit) const {
   embree::intersect(tree_->scene, query);
   const RTCHit& found = query.hit;
   if (found.geomID == RTC_INVALID_GEOMETRY_ID) return hits_endless;
-  return tree_->choose({query.ray.tfar, found.instID[0], found.primID, found.Ng_x, found.u, found.v}, hits_endless,
-                       hit);
+  return tree_->choose({query.ray.tfar, found.instID[0], found.primID, found.Ng_x, found.u, found.v},
+                       hits_endless, hit);
 }
 
 bool Accelerator::is_occluded(const Ray3f& ray) const {
@@ -188,7 +208,8 @@ bool Accelerator::is_occluded(const Ray3f& ray) const {
   return !tree_->endless.is_empty() && tree_->endless.is_occluded(ray);
 }
 
-std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Coherence coherence) const {
+std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hits,
+                                  Coherence coherence) const {
   RTCRayHit16 query{};
   std::uint32_t answer = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -204,8 +225,9 @@ std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hi
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     const bool hits_endless = (answer >> i & 1U) != 0;
-    tree_->choose({query.ray.tfar[i], found.instID[0][i], found.primID[i], found.Ng_x[i], found.u[i], found.v[i]},
-                  hits_endless, hits[i]);
+    tree_->choose(
+        {query.ray.tfar[i], found.instID[0][i], found.primID[i], found.Ng_x[i], found.u[i], found.v[i]},
+        hits_endless, hits[i]);
     answer |= 1U << i;
   }
   return answer;

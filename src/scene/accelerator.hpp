@@ -8,8 +8,8 @@
 
 namespace raytracer {
 
-/// A bounding volume hierarchy over finite shapes and over the places of shared ones, with endless shapes beside it. All of
-/// them must outlive it.
+/// A bounding volume hierarchy over finite shapes and over the places of shared ones, with endless shapes
+/// beside it. All of them must outlive it.
 class Accelerator {
  public:
   explicit Accelerator(std::span<const std::unique_ptr<Shape>> shapes,
@@ -19,7 +19,8 @@ class Accelerator {
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
 
-  /// The nearest hit; among equal t that of the lower shape, and shapes of the scene itself come before instances.
+  /// The nearest hit; among equal t that of the lower shape, and shapes of the scene itself come before
+  /// instances.
   bool is_hit(const Ray3f& ray, Hit& hit) const;
   bool is_occluded(const Ray3f& ray) const;
 

@@ -20,15 +20,16 @@ void bounds_callback(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
 }
 
-// Whether the shape that is asked comes before the one that was hit: by instance, the scene's own shapes first, then by
-// shape.
+// Whether the shape that is asked comes before the one that was hit: by instance, the scene's own shapes
+// first, then by shape.
 bool comes_before(const RTCIntersectFunctionNArguments& args, unsigned hit_instance, unsigned hit_primitive) {
   // RTC_INVALID_GEOMETRY_ID, no instance, wraps to 0.
   const unsigned asked = args.context->instID[0] + 1, hit = hit_instance + 1;
   return asked < hit || (asked == hit && args.primID < hit_primitive);
 }
 
-// --- one ray ---------------------------------------------------------------------------------------------------------
+// --- one ray
+// ---------------------------------------------------------------------------------------------------------
 
 // A ray among the `n` of a packet that lie in memory one coordinate after the other. n = 1 is a plain RTCRay.
 Ray3f ray_in(RTCRayN* rays, unsigned n, unsigned i) {
@@ -44,7 +45,8 @@ inline void intersect_one(const RTCIntersectFunctionNArguments& args, unsigned n
   // A hit just as far as the nearest one so far still counts if its shape comes first.
   const bool has_hit = RTCHitN_geomID(hits, n, i) != RTC_INVALID_GEOMETRY_ID;
   Ray3f ray = ray_in(rays, n, i);
-  const bool comes_first = has_hit && comes_before(args, RTCHitN_instID(hits, n, i, 0), RTCHitN_primID(hits, n, i));
+  const bool comes_first =
+      has_hit && comes_before(args, RTCHitN_instID(hits, n, i, 0), RTCHitN_primID(hits, n, i));
   if (comes_first) ray.t_max = std::nextafter(ray.t_max, kInfinity);
   Hit hit;
   if (!shape_of(args.geometryUserPtr, args.primID).is_hit(ray, hit)) return;
@@ -64,7 +66,8 @@ inline void occlude_one(const RTCOccludedFunctionNArguments& args, unsigned n, u
   }
 }
 
-// --- eight rays of a packet ------------------------------------------------------------------------------------------
+// --- eight rays of a packet
+// ------------------------------------------------------------------------------------------
 
 void copy_lanes(float* to, const float* from) { std::memcpy(to, from, kLanes * sizeof(float)); }
 
@@ -124,7 +127,8 @@ void occlude_eight(const RTCOccludedFunctionNArguments& args, unsigned first) {
   for (int i = 0; i < kLanes; ++i) t_max[i] = hits.t[i] < kInfinity ? -kInfinity : t_max[i];
 }
 
-// --- Embree's entries ------------------------------------------------------------------------------------------------
+// --- Embree's entries
+// ------------------------------------------------------------------------------------------------
 
 // Eights where more than one of them asks, else one by one.
 template <class Arguments, class One, class Eight>

@@ -15,8 +15,8 @@ struct FiniteShapes {
   std::vector<std::uint32_t> indices;
 };
 
-/// Lets `geometry` ask the shapes, which must outlive it, for everything. A hit leaves its Hit::primitive, as bits, in
-/// the place of the normal's x: surface_at() knows the normal better.
+/// Lets `geometry` ask the shapes, which must outlive it, for everything. A hit leaves its Hit::primitive, as
+/// bits, in the place of the normal's x: surface_at() knows the normal better.
 void set_callbacks(RTCGeometry geometry, FiniteShapes& finite);
 
 }  // namespace raytracer

@@ -55,8 +55,9 @@ void copy_eight(T* to, const T* from) {
 inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays, Coherence coherence) {
   RTCIntersectContext with = context(coherence);
   if (coherence == Coherence::kIncoherent) return rtcOccluded16(valid, scene, &with, &rays);
-  // Coherent rays go by eights: the code for sixteen, as Debian 12 has compiled it for AVX-512 (Embree 3.13.5), writes a
-  // mask of 16 bits to the stack and reads 64 of them back, and does not return if the others are not 0.
+  // Coherent rays go by eights: the code for sixteen, as Debian 12 has compiled it for AVX-512
+  // (Embree 3.13.5), writes a mask of 16 bits to the stack and reads 64 of them back, and does not return if
+  // the others are not 0.
   for (int first = 0; first < 16; first += 8) {
     RTCRay8 eight;
     copy_eight(eight.org_x, rays.org_x + first);

@@ -58,7 +58,8 @@ Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, 
   return color;
 }
 
-// --- many rays -------------------------------------------------------------------------------------------------------
+// --- many rays
+// -------------------------------------------------------------------------------------------------------
 
 void PixelColors::trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors) {
   if (rays.empty()) return;
@@ -131,14 +132,14 @@ void PixelColors::find_hits(const std::vector<Ray3f>& rays, Coherence coherence)
   }
   for (std::size_t first = 0; first < rays.size(); first += kMostRays) {
     const std::size_t count = std::min(kMostRays, rays.size() - first);
-    const std::uint32_t found =
-        scene_.is_hit(std::span(rays).subspan(first, count), std::span(hits_).subspan(first, count), coherence);
+    const std::uint32_t found = scene_.is_hit(std::span(rays).subspan(first, count),
+                                              std::span(hits_).subspan(first, count), coherence);
     for (std::size_t i = 0; i < count; ++i) is_hit_[first + i] = (found >> i & 1U) != 0;
   }
 }
 
-// Adds one light where it is seen to all the points of lit_. From scattered points, as with scattered rays, one by one
-// is at least as fast.
+// Adds one light where it is seen to all the points of lit_. From scattered points, as with scattered rays,
+// one by one is at least as fast.
 void PixelColors::add_light(const Light& light, Coherence coherence) {
   ShadowRays waiting;
   for (std::uint32_t i = 0; i < lit_.size(); ++i) {
@@ -159,7 +160,8 @@ void PixelColors::add_light(const Light& light, Coherence coherence) {
 }
 
 void PixelColors::add_seen(ShadowRays& waiting) {
-  const std::uint32_t hidden = scene_.is_occluded(std::span(waiting.rays, waiting.count), Coherence::kCoherent);
+  const std::uint32_t hidden =
+      scene_.is_occluded(std::span(waiting.rays, waiting.count), Coherence::kCoherent);
   for (std::size_t i = 0; i < waiting.count; ++i) {
     if ((hidden >> i & 1U) == 0) lit_[waiting.to[i]].light += waiting.color[i];
   }

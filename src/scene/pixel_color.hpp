@@ -19,21 +19,22 @@ struct ShadingPoint {
 /// Scene::get_pixel_color; adds the rays it traced to `rays`.
 Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, std::uint64_t& rays);
 
-/// The very same colours for many rays at once: all go one bounce, then all that are reflected the next, so that the
-/// shadow rays of each bounce can be traced in packets. Keeps its memory from one call to the next.
+/// The very same colours for many rays at once: all go one bounce, then all that are reflected the next, so
+/// that the shadow rays of each bounce can be traced in packets. Keeps its memory from one call to the next.
 class PixelColors {
  public:
   explicit PixelColors(const Scene& scene) : scene_(scene) {}
 
-  /// colors[i] becomes what rays[i] sees; rays that follow each other should start close together and go the same way.
+  /// colors[i] becomes what rays[i] sees; rays that follow each other should start close together and go the
+  /// same way.
   void trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors);
 
   /// How many rays that took so far.
   std::uint64_t rays() const { return rays_; }
 
  private:
-  // All the rays that have been reflected equally often, and what they see. `parent` is the ray of the level before
-  // from which a ray comes, `share` what it adds to that one.
+  // All the rays that have been reflected equally often, and what they see. `parent` is the ray of the level
+  // before from which a ray comes, `share` what it adds to that one.
   struct Level {
     std::vector<Ray3f> rays;
     std::vector<std::uint32_t> parent;

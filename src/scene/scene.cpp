@@ -13,14 +13,16 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     throw Error(ErrorKind::kUsage, "a scene needs one material index per shape");
   }
   for (const std::uint32_t index : description_.material_of) {
-    if (index >= description_.materials.size()) throw Error(ErrorKind::kUsage, "a shape's material does not exist");
+    if (index >= description_.materials.size())
+      throw Error(ErrorKind::kUsage, "a shape's material does not exist");
   }
   for (const Instance& instance : description_.instances) {
     if (instance.shared >= description_.shared.size()) {
       throw Error(ErrorKind::kUsage, "an instance's shapes do not exist");
     }
   }
-  accelerator_ = std::make_unique<Accelerator>(description_.shapes, description_.shared, description_.instances);
+  accelerator_ =
+      std::make_unique<Accelerator>(description_.shapes, description_.shared, description_.instances);
 }
 
 Scene::~Scene() = default;

@@ -1,4 +1,5 @@
-// The plainest of all searches: every shape is asked. It serves endless shapes, and tests as the oracle of the tree.
+// The plainest of all searches: every shape is asked. It serves endless shapes, and tests as the oracle of
+// the tree.
 #pragma once
 
 #include <cstdint>

@@ -37,11 +37,16 @@ class ArgumentReader {
       return std::nullopt;
     }
     switch (row_.type) {
-      case PropertyType::kWord: return word();
-      case PropertyType::kMaterial: return name();
-      case PropertyType::kBoolean: return single(ValueType::kBoolean);
-      case PropertyType::kString: return single(ValueType::kString);
-      default: return numbers();
+      case PropertyType::kWord:
+        return word();
+      case PropertyType::kMaterial:
+        return name();
+      case PropertyType::kBoolean:
+        return single(ValueType::kBoolean);
+      case PropertyType::kString:
+        return single(ValueType::kString);
+      default:
+        return numbers();
     }
   }
 
@@ -62,12 +67,11 @@ class ArgumentReader {
   }
 
   void wrong_type(const ValueNode& value, std::string_view what) {
-    error(value.span, fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), what), example());
+    error(value.span, fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), what),
+          example());
   }
 
-  bool is_spread() const {
-    return row_.type == PropertyType::kSize || row_.type == PropertyType::kColor;
-  }
+  bool is_spread() const { return row_.type == PropertyType::kSize || row_.type == PropertyType::kColor; }
 
   // Adds a value's numbers to the components; a vector counts as three where more than one is wanted.
   bool take(const ValueNode& node, const Value& value) {
@@ -76,7 +80,8 @@ class ArgumentReader {
       const std::string_view kind = describe(value.type);
       wrong_type(node, node.kind == ValueKind::kExpression
                            ? std::string(kind)
-                           : fmt::format("{} {}", kind.starts_with("a ") ? "the" + std::string(kind.substr(1)) : kind,
+                           : fmt::format("{} {}",
+                                         kind.starts_with("a ") ? "the" + std::string(kind.substr(1)) : kind,
                                          text(node)));
       return false;
     }
@@ -107,10 +112,9 @@ class ArgumentReader {
   bool check_count() {
     const std::size_t most = most_numbers(row_.type);
     if (count_ == most || (is_spread() && count_ == 1)) return true;
-    const std::size_t first_extra =
-        count_ > most ? std::min(most, property_.values.size() - 1) : 0;
-    error(values_from(first_extra), fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), count_),
-          example());
+    const std::size_t first_extra = count_ > most ? std::min(most, property_.values.size() - 1) : 0;
+    error(values_from(first_extra),
+          fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), count_), example());
     return false;
   }
 
@@ -131,14 +135,16 @@ class ArgumentReader {
     if (row_.type == PropertyType::kColor && range.most == 1 && x > 1 && x <= 255) {
       hint = "1 is full strength; 0..255 is written #rrggbb";
     }
-    error(node.span, fmt::format("'{}' must be {}, found {}", row_.name, describe_range(range, x), found), hint);
+    error(node.span, fmt::format("'{}' must be {}, found {}", row_.name, describe_range(range, x), found),
+          hint);
     return false;
   }
 
   bool check_single() {
     if (property_.values.size() == 1) return true;
-    error(values_from(1), fmt::format("'{}' takes {}, found {} values", row_.name, describe_type(row_),
-                                      property_.values.size()),
+    error(values_from(1),
+          fmt::format("'{}' takes {}, found {} values", row_.name, describe_type(row_),
+                      property_.values.size()),
           example());
     return false;
   }
@@ -202,19 +208,26 @@ class ArgumentReader {
 std::size_t most_numbers(PropertyType type) {
   switch (type) {
     case PropertyType::kNumber:
-    case PropertyType::kInteger: return 1;
-    case PropertyType::kPixels: return 2;
+    case PropertyType::kInteger:
+      return 1;
+    case PropertyType::kPixels:
+      return 2;
     case PropertyType::kVector:
     case PropertyType::kSize:
-    case PropertyType::kColor: return 3;
-    case PropertyType::kAxisAngle: return 4;
-    case PropertyType::kMatrix: return kMostNumbers;
-    default: return 0;
+    case PropertyType::kColor:
+      return 3;
+    case PropertyType::kAxisAngle:
+      return 4;
+    case PropertyType::kMatrix:
+      return kMostNumbers;
+    default:
+      return 0;
   }
 }
 
-std::optional<Argument> read_argument(const PropertyRow& row, const PropertyNode& property, const Source& source,
-                                      const Visibility& visibility, Evaluator& evaluator, Diagnostics& diagnostics) {
+std::optional<Argument> read_argument(const PropertyRow& row, const PropertyNode& property,
+                                      const Source& source, const Visibility& visibility,
+                                      Evaluator& evaluator, Diagnostics& diagnostics) {
   return ArgumentReader(row, property, source, visibility, evaluator, diagnostics).read();
 }
 

@@ -9,9 +9,9 @@
 
 namespace raytracer::scene_file {
 
-/// What a piece of text sees of a stack: everything from `base` up, and below `limit` what the text around it sees. The
-/// body of a definition has its parameters from `base`, and does not see what came between its definition and its
-/// use.
+/// What a piece of text sees of a stack: everything from `base` up, and below `limit` what the text around it
+/// sees. The body of a definition has its parameters from `base`, and does not see what came between its
+/// definition and its use.
 struct Visibility {
   std::size_t base = 0, limit = 0;
   const Visibility* around = nullptr;
@@ -31,8 +31,8 @@ class Bindings {
   struct Entry {
     NameId name = 0;
     T value{};
-    Place place;                ///< where the name was given
-    std::uint32_t hidden = 0;   ///< the entry of the same name below, plus 1
+    Place place;               ///< where the name was given
+    std::uint32_t hidden = 0;  ///< the entry of the same name below, plus 1
   };
 
   std::size_t height() const { return entries_.size(); }

@@ -30,12 +30,14 @@ void BlockContext::error(std::string_view property, std::string message, std::st
                               std::move(suggestion));
 }
 
-// The message of a shape that can't be quotes the property it is about; the place is that property's, if it was given.
+// The message of a shape that can't be quotes the property it is about; the place is that property's, if it
+// was given.
 void BlockContext::report_bad_shape(std::string_view problem) {
   const std::size_t open = problem.find('\'');
   const std::size_t close = open == std::string_view::npos ? open : problem.find('\'', open + 1);
   const bool names_property = close != std::string_view::npos;
-  error(names_property ? problem.substr(open + 1, close - open - 1) : std::string_view(), std::string(problem));
+  error(names_property ? problem.substr(open + 1, close - open - 1) : std::string_view(),
+        std::string(problem));
 }
 
 // Notes a property as given; false where it was given before, which is an error unless it places the block.
@@ -89,7 +91,8 @@ void BlockContext::report_unknown_property(Span name) {
   } else {
     suggestion = fmt::format("it has {}", fmt::join(known, ", "));
   }
-  builder_.diagnostics_.error(place(name), fmt::format("{} has no property '{}'", row_.name, word), suggestion);
+  builder_.diagnostics_.error(place(name), fmt::format("{} has no property '{}'", row_.name, word),
+                              suggestion);
 }
 
 void BlockContext::store(const PropertyRow& row, const Argument& argument, void* input) {
@@ -97,7 +100,9 @@ void BlockContext::store(const PropertyRow& row, const Argument& argument, void*
   Value& value = (*parameters_)[static_cast<std::size_t>(&row - row_.properties.data())];
   const auto& n = argument.numbers;
   switch (row.type) {
-    case PropertyType::kVector: value.vector = {n[0], n[1], n[2]}; break;
+    case PropertyType::kVector:
+      value.vector = {n[0], n[1], n[2]};
+      break;
     case PropertyType::kColor: {
       const bool is_display = argument.is_display;
       value = Value::color({n[0], n[1], n[2]});
@@ -107,7 +112,9 @@ void BlockContext::store(const PropertyRow& row, const Argument& argument, void*
     case PropertyType::kString:
       value.text = builder_.evaluator_.names().text(builder_.evaluator_.names().id_of(argument.text));
       break;
-    default: value.vector = {n[0], 0, 0}; break;
+    default:
+      value.vector = {n[0], 0, 0};
+      break;
   }
   value.depends_on_time = argument.depends_on_time;
 }
@@ -119,19 +126,21 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
     return false;
   }
   if (!accept(*row, place(property.whole()))) return false;
-  const auto argument = read_argument(*row, property, *around_.source, around_.frame->values, builder_.evaluator_,
-                                      builder_.diagnostics_);
+  const auto argument = read_argument(*row, property, *around_.source, around_.frame->values,
+                                      builder_.evaluator_, builder_.diagnostics_);
   if (!argument) return false;
   depends_on_time_ = depends_on_time_ || argument->depends_on_time;
   if (SceneHasher* hasher = builder_.hasher()) hasher->add(*row, *argument);
   if (row->type == PropertyType::kMaterial) {
     material_ = builder_.find_material(argument->text, place(property.values.front().span), around_);
     note_material();
-    if (SceneRecorder* recorder = builder_.recorder(); recorder && material_) recorder->use_material(*material_);
+    if (SceneRecorder* recorder = builder_.recorder(); recorder && material_)
+      recorder->use_material(*material_);
     return material_.has_value();
   }
   const bool is_parameter = parameters_ != nullptr && !is_placing(*row);
-  if (SceneRecorder* recorder = builder_.recorder(); recorder && !is_parameter) recorder->add(*row, *argument);
+  if (SceneRecorder* recorder = builder_.recorder(); recorder && !is_parameter)
+    recorder->add(*row, *argument);
   if (is_placing(*row)) return apply_placing(*row, *argument, place(property.whole()));
   store(*row, *argument, input);
   return true;
@@ -173,14 +182,17 @@ bool BlockContext::fill_block(const BlockNode& block) {
   return false;
 }
 
-// The items as they are meant: where the parser can't have known what a property takes, cut anew by this kind's rows.
+// The items as they are meant: where the parser can't have known what a property takes, cut anew by this
+// kind's rows.
 void BlockContext::cut_items() {
   items_ = node_.items;
   if (node_.is_exact) return;
-  ItemCutter cutter(row_, *around_.source, builder_.evaluator_.names(), builder_.draft_.nodes, [this](std::string_view word) {
-    return find_kind(word) != nullptr ||
-           builder_.find_definition(builder_.evaluator_.names().id_of(word), around_) != nullptr;
-  });
+  ItemCutter cutter(row_, *around_.source, builder_.evaluator_.names(), builder_.draft_.nodes,
+                    [this](std::string_view word) {
+                      return find_kind(word) != nullptr ||
+                             builder_.find_definition(builder_.evaluator_.names().id_of(word), around_) !=
+                                 nullptr;
+                    });
   if (cutter.is_needed(node_.items)) items_ = cutter.cut(node_.items);
 }
 
@@ -223,7 +235,8 @@ bool BlockContext::check_required() {
     if (example.empty()) example = fmt::format("{} {}", row.name, example_value(row));
   }
   if (missing.empty()) return true;
-  builder_.diagnostics_.error(header(), fmt::format("{} has no {}", row_.name, fmt::join(missing, ", ")), example);
+  builder_.diagnostics_.error(header(), fmt::format("{} has no {}", row_.name, fmt::join(missing, ", ")),
+                              example);
   return false;
 }
 

@@ -36,7 +36,8 @@ Place place_of(const ItemNode& item, const Surroundings& around) {
 
 }  // namespace
 
-Builder::Builder(Files& files, const Limits& limits, const Moment& moment, KeptShapes& kept, Diagnostics& diagnostics)
+Builder::Builder(Files& files, const Limits& limits, const Moment& moment, KeptShapes& kept,
+                 Diagnostics& diagnostics)
     : files_(files),
       limits_(limits),
       diagnostics_(diagnostics),
@@ -95,7 +96,8 @@ void Builder::build_item(const ItemNode& item, const Surroundings& around) {
   if (halted_) return;
   // Every level costs some kilobytes of stack; load() provides as much as this many take.
   if (depth_ >= kDeepestStatements) {
-    return halt(place_of(item, around), fmt::format("blocks and statements are nested more than {} deep", kDeepestStatements));
+    return halt(place_of(item, around),
+                fmt::format("blocks and statements are nested more than {} deep", kDeepestStatements));
   }
   const Deeper deeper(depth_);
   struct Dispatch {
@@ -104,7 +106,9 @@ void Builder::build_item(const ItemNode& item, const Surroundings& around) {
     void operator()(const BlockNode* node) const { builder.build_block(*node, around); }
     void operator()(const PropertyNode* node) const { builder.build_stray_property(*node, around); }
     void operator()(const IncludeNode* node) const { builder.build_include(*node, around); }
-    void operator()(const LetNode* node) const { builder.build_let(*node, around, around.let_base, around.is_top); }
+    void operator()(const LetNode* node) const {
+      builder.build_let(*node, around, around.let_base, around.is_top);
+    }
     void operator()(const ForNode* node) const { builder.build_for(*node, around); }
     void operator()(const IfNode* node) const { builder.build_if(*node, around); }
     void operator()(const DefineNode* node) const { builder.build_define(*node, around); }
@@ -141,7 +145,8 @@ void Builder::report_unknown_kind(const BlockNode& block, const Surroundings& ar
   }
   std::string_view nearest = nearest_word(word, known);
   std::vector<Note> notes;
-  std::string suggestion = nearest.empty() ? "'raytracer help' lists all kinds" : fmt::format("did you mean '{}'?", nearest);
+  std::string suggestion =
+      nearest.empty() ? "'raytracer help' lists all kinds" : fmt::format("did you mean '{}'?", nearest);
   if (word == "elif" || word == "elseif") suggestion = "else if … { … }";
   if (const SyntaxTree* tree = files_.tree_of(*around.source)) {
     for (const ItemNode& item : tree->items) {
@@ -151,8 +156,8 @@ void Builder::report_unknown_kind(const BlockNode& block, const Surroundings& ar
       suggestion = "a name is defined before it is used";
     }
   }
-  diagnostics_.error({around.source, block.kind}, fmt::format("there is no kind of block '{}'", word), suggestion,
-                     notes);
+  diagnostics_.error({around.source, block.kind}, fmt::format("there is no kind of block '{}'", word),
+                     suggestion, notes);
 }
 
 void Builder::report_unknown_variant(const BlockNode& block, const Surroundings& around) {
@@ -168,8 +173,10 @@ void Builder::report_unknown_variant(const BlockNode& block, const Surroundings&
                                      : fmt::format("did you mean '{}'?", nearest));
 }
 
-// Finds the row of a block from its kind and, where the kind has variants, the word behind it; what is left is its name.
-const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings& around, std::string_view& name) {
+// Finds the row of a block from its kind and, where the kind has variants, the word behind it; what is left
+// is its name.
+const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings& around,
+                                     std::string_view& name) {
   const std::string_view word = around.source->text(block.kind);
   const auto word_at = [&](std::size_t i) {
     return i < block.words.size() ? around.source->text(block.words[i]) : std::string_view();
@@ -207,7 +214,8 @@ bool Builder::check_standing(const KindRow& row, const BlockNode& block, const S
 }
 
 // Names are unique within their kind; a setting without a name exists once.
-bool Builder::register_name(const KindRow& row, std::string_view name, const Place& place, const Surroundings& around) {
+bool Builder::register_name(const KindRow& row, std::string_view name, const Place& place,
+                            const Surroundings& around) {
   if (name.empty() && row.block_class != BlockClass::kSetting) return true;
   NameTable& table = row.block_class == BlockClass::kSetting ? setting_names_ : *around.names;
   const auto [first, is_new] = table.try_emplace(fmt::format("{} {}", row.name, name), place);
@@ -227,7 +235,8 @@ std::shared_ptr<const Definition> Builder::find_definition(NameId name, const Su
 void Builder::build_block(const BlockNode& block, const Surroundings& around) {
   if (!spend(1, {around.source, block.header()})) return;
   if (definitions_.height() > 0) {
-    if (const auto definition = find_definition(block.kind_name, around)) return build_use(definition, block, around);
+    if (const auto definition = find_definition(block.kind_name, around))
+      return build_use(definition, block, around);
   }
   std::string_view name;
   const KindRow* row = resolve_kind(block, around, name);
@@ -269,7 +278,8 @@ void Builder::build_material(const KindRow& row, const BlockNode& block, std::st
   if (sound) material_uses_[index] = {place, false, context.depends_on_time(), id};
 }
 
-std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& block, const Surroundings& around) {
+std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& block,
+                                                            const Surroundings& around) {
   const KindRow* row = find_kind("material");
   const SceneRecorder::Block recorded(recorder(), *row, {});
   BlockContext context(*this, *row, block, around, {});
@@ -328,7 +338,8 @@ bool Builder::spend(std::uint64_t steps, const Place& place) {
   if (halted_) return false;
   if (budget_.take(steps)) return true;
   if (diagnostics_.has_errors()) halted_ = true;  // a text with mistakes in it is not run to the end
-  halt(place, fmt::format("the scene takes more than {} steps to evaluate", limits_.steps), "--limit steps=N allows more");
+  halt(place, fmt::format("the scene takes more than {} steps to evaluate", limits_.steps),
+       "--limit steps=N allows more");
   return false;
 }
 
@@ -340,12 +351,14 @@ void Builder::halt(const Place& place, std::string message, std::string suggesti
 
 void Builder::note_shape(const Place& place) {
   if (++shapes_made_ > limits_.shapes) {
-    halt(place, fmt::format("the scene makes more than {} shapes", limits_.shapes), "--limit shapes=N allows more");
+    halt(place, fmt::format("the scene makes more than {} shapes", limits_.shapes),
+         "--limit shapes=N allows more");
   }
 }
 
 void Builder::warn_of_unused_names(const SyntaxTree& main) {
-  constexpr std::size_t kMostLookedAt = 200;  // more are not told anyway, and each costs a look through the text
+  constexpr std::size_t kMostLookedAt =
+      200;  // more are not told anyway, and each costs a look through the text
   std::size_t looked_at = 0;
   const auto warn = [&](const Place& place, const std::string& phrase, const std::string& name) {
     if (++looked_at < kMostLookedAt && files_.is_mentioned_twice(phrase)) return;

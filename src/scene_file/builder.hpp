@@ -1,5 +1,5 @@
-// From nodes to a scene: runs the statements in order, checks every block's properties against the rows of its kind, and
-// hands sound blocks to the row's build function.
+// From nodes to a scene: runs the statements in order, checks every block's properties against the rows of
+// its kind, and hands sound blocks to the row's build function.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 #include "scene_file/evaluator.hpp"
 #include "scene_file/files.hpp"
 #include "scene_file/limits.hpp"
-#include "scene_file/shape_store.hpp"
 #include "scene_file/scene_hash.hpp"
 #include "scene_file/scene_recorder.hpp"
 #include "scene_file/schema.hpp"
+#include "scene_file/shape_store.hpp"
 #include "scene_file/syntax.hpp"
 
 namespace raytracer::scene_file {
@@ -62,12 +62,12 @@ struct Surroundings {
   std::uint32_t material = 0;
   const Frame* frame = nullptr;
   NameTable* names = nullptr;
-  bool is_top = false;            ///< at the top of the scene, outside of all braces
-  std::size_t let_base = 0;       ///< bindings from here on belong to this block
+  bool is_top = false;              ///< at the top of the scene, outside of all braces
+  std::size_t let_base = 0;         ///< bindings from here on belong to this block
   std::size_t definition_base = 0;  ///< likewise definitions
-  std::size_t material_base = 0;  ///< likewise materials, to this turn of a loop or use of a definition
-  bool depends_on_time = false;   ///< whether any of it does
-  bool is_unclosed = false;       ///< the block around lacks its '}': what stands in it may belong elsewhere
+  std::size_t material_base = 0;    ///< likewise materials, to this turn of a loop or use of a definition
+  bool depends_on_time = false;     ///< whether any of it does
+  bool is_unclosed = false;  ///< the block around lacks its '}': what stands in it may belong elsewhere
 };
 
 /// One block on its way to become real. The rows' build functions see the builder through it.
@@ -132,8 +132,8 @@ class BlockContext {
   bool depends_on_time_ = false;
   std::size_t let_base_ = 0;
   std::vector<Given> given_;
-  std::span<const ItemNode> items_;              // of the node, as they are meant
-  std::vector<Value>* parameters_ = nullptr;     // of a use of a definition
+  std::span<const ItemNode> items_;           // of the node, as they are meant
+  std::vector<Value>* parameters_ = nullptr;  // of a use of a definition
 };
 
 /// `define`, with what its body sees.
@@ -141,22 +141,27 @@ struct Definition {
   const DefineNode* node = nullptr;
   const Source* source = nullptr;
   std::string name;
-  KindRow row;                     ///< its parameters as properties, so that a use is checked like a built-in block
+  KindRow row;  ///< its parameters as properties, so that a use is checked like a built-in block
   std::vector<PropertyRow> parameters;
   std::vector<Value> defaults;
-  bool is_top = false;             ///< defined at the top of the scene, where all moments find the same
-  Frame frame;                     ///< around it
-  std::array<std::size_t, 3> heights{};  ///< of the stacks of values, definitions and materials where it stands
+  bool is_top = false;  ///< defined at the top of the scene, where all moments find the same
+  Frame frame;          ///< around it
+  std::array<std::size_t, 3>
+      heights{};  ///< of the stacks of values, definitions and materials where it stands
 };
 
 class Builder {
  public:
-  /// `kept` holds what earlier moments of the same scene have built, and gets what this one builds for later ones.
-  Builder(Files& files, const Limits& limits, const Moment& moment, KeptShapes& kept, Diagnostics& diagnostics);
+  /// `kept` holds what earlier moments of the same scene have built, and gets what this one builds for later
+  /// ones.
+  Builder(Files& files, const Limits& limits, const Moment& moment, KeptShapes& kept,
+          Diagnostics& diagnostics);
 
   /// Top-level lets that the caller replaces: by name, as values.
   /// A string keeps the text as it was given, whatever else it could be read as.
-  void replace_let(NameId name, const Value& value, std::string_view text) { replaced_lets_[name] = {value, text}; }
+  void replace_let(NameId name, const Value& value, std::string_view text) {
+    replaced_lets_[name] = {value, text};
+  }
 
   /// The hasher is told what the scene says; it outlives build().
   void hash_into(SceneHasher& hasher) { hasher_ = &hasher; }
@@ -187,7 +192,8 @@ class Builder {
   friend class BlockContext;
   friend bool fill(BlockContext& context, void* input);
 
-  /// Null where nobody asked, and while a body is built once more to be stored: its first use has said all of it.
+  /// Null where nobody asked, and while a body is built once more to be stored: its first use has said all of
+  /// it.
   SceneHasher* hasher() { return store_.is_recording() ? nullptr : hasher_; }
 
   SceneRecorder* recorder() {
@@ -211,18 +217,21 @@ class Builder {
   void build_item(const ItemNode& item, const Surroundings& around);
   void build_stray_property(const PropertyNode& property, const Surroundings& around);
   void build_block(const BlockNode& block, const Surroundings& around);
-  void build_material(const KindRow& row, const BlockNode& block, std::string_view name, const Surroundings& around);
+  void build_material(const KindRow& row, const BlockNode& block, std::string_view name,
+                      const Surroundings& around);
   void build_include(const IncludeNode& include, const Surroundings& around);
   void build_let(const LetNode& let, const Surroundings& around, std::size_t let_base, bool is_top);
   void build_for(const ForNode& loop, const Surroundings& around);
   Value replaced(const Replacement& replacement, const Value& original, const Place& place) const;
   void build_if(const IfNode& choice, const Surroundings& around);
   void build_define(const DefineNode& define, const Surroundings& around);
-  void build_use(const std::shared_ptr<const Definition>& definition, const BlockNode& block, const Surroundings& around);
+  void build_use(const std::shared_ptr<const Definition>& definition, const BlockNode& block,
+                 const Surroundings& around);
   void build_body(const Definition& definition, const std::vector<Value>& arguments, Surroundings inside,
                   const Place& used_at);
-  std::shared_ptr<const SharedShapes> share_body(const Definition& definition, const std::vector<Value>& arguments,
-                                                 Surroundings inside, const std::string& key, const Place& used_at);
+  std::shared_ptr<const SharedShapes> share_body(const Definition& definition,
+                                                 const std::vector<Value>& arguments, Surroundings inside,
+                                                 const std::string& key, const Place& used_at);
   Value parameter_default(const ParameterNode& parameter, const Surroundings& around);
   std::shared_ptr<const Definition> find_definition(NameId name, const Surroundings& around) const;
 
@@ -230,8 +239,10 @@ class Builder {
   void report_unknown_kind(const BlockNode& block, const Surroundings& around);
   void report_unknown_variant(const BlockNode& block, const Surroundings& around);
   bool check_standing(const KindRow& row, const BlockNode& block, const Surroundings& around);
-  bool register_name(const KindRow& row, std::string_view name, const Place& place, const Surroundings& around);
-  std::optional<std::uint32_t> find_material(std::string_view name, const Place& place, const Surroundings& around);
+  bool register_name(const KindRow& row, std::string_view name, const Place& place,
+                     const Surroundings& around);
+  std::optional<std::uint32_t> find_material(std::string_view name, const Place& place,
+                                             const Surroundings& around);
   const BlockNode* find_later_material(std::string_view name, const Place& place) const;
   std::optional<std::uint32_t> build_inline_material(const BlockNode& block, const Surroundings& around);
 

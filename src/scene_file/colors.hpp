@@ -16,9 +16,9 @@ std::span<const std::string_view> color_names();
 /// From hue in degrees (any), saturation and value in 0..1 (Smith 1978, "Color gamut transform pairs").
 Vector3d hsv(double hue_degrees, double saturation, double value);
 
-/// The linear Rec.709 colour of a black body at a temperature in kelvin, scaled so that its largest component is 1;
-/// components outside of the gamut are 0. Planck's law with the colour matching functions as fitted by Wyman, Sloan,
-/// Shirley 2013, "Simple analytic approximations to the CIE XYZ color matching functions".
+/// The linear Rec.709 colour of a black body at a temperature in kelvin, scaled so that its largest component
+/// is 1; components outside of the gamut are 0. Planck's law with the colour matching functions as fitted by
+/// Wyman, Sloan, Shirley 2013, "Simple analytic approximations to the CIE XYZ color matching functions".
 Vector3d black_body_color(double kelvin);
 
 /// Of `#rgb` or `#rrggbb`, which must be well-formed.

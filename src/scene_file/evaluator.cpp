@@ -242,7 +242,8 @@ Value Evaluator::compute_name(const Expression& e, const Scene& scene) {
 void Evaluator::report_unknown(std::string_view name, const Place& place, const Visibility& visibility) {
   const std::string_view text = place.source->text();
   const std::string later = fmt::format("let {} ", name);
-  const std::size_t below = diagnostics_.is_listening() ? text.find(later, place.span.end) : std::string_view::npos;
+  const std::size_t below =
+      diagnostics_.is_listening() ? text.find(later, place.span.end) : std::string_view::npos;
   if (below == std::string_view::npos) {
     return diagnostics_.error(place, fmt::format("there is no '{}'", name), suggestion_for(name, visibility));
   }

@@ -98,7 +98,8 @@ const SyntaxTree* Files::add(std::string name, std::string path, std::string tex
   File file;
   file.source = std::make_unique<Source>(std::move(name), std::move(path), std::move(text));
   const bool json = is_json(file.source->name(), file.source->text());
-  file.tree = json ? parse_json_scene(*file.source, names_, diagnostics) : parse(*file.source, names_, diagnostics);
+  file.tree =
+      json ? parse_json_scene(*file.source, names_, diagnostics) : parse(*file.source, names_, diagnostics);
   files_.push_back(std::move(file));
   return files_.back().tree.get();
 }
@@ -163,7 +164,8 @@ bool Files::is_mentioned_twice(std::string_view word) const {
   int count = 0;
   for (const File& file : files_) {
     const std::string_view text = file.source->text();
-    for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + word.size())) {
+    for (std::size_t at = text.find(word); at != std::string_view::npos;
+         at = text.find(word, at + word.size())) {
       const bool begins = at == 0 || !is_word(text[at - 1]);
       const bool ends = at + word.size() >= text.size() || !is_word(text[at + word.size()]);
       if (begins && ends && ++count > 1) return true;

@@ -24,8 +24,8 @@ class Files {
   /// Takes the main scene's text.
   const SyntaxTree* add_main(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
-  /// The tree of a file that a scene at `from` names, parsed when first asked for. Null where it can't be had,
-  /// which has then been reported at `from`.
+  /// The tree of a file that a scene at `from` names, parsed when first asked for. Null where it can't be
+  /// had, which has then been reported at `from`.
   const SyntaxTree* include(const std::string& file, const Place& from, Diagnostics& diagnostics);
 
   /// The tree of a source of this scene.

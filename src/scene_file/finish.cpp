@@ -43,7 +43,8 @@ CameraDraft framing_camera(const SceneDescription& scene, double aspect) {
     const Box3f bounds = shape->bounds();
     if (bounds.is_finite()) box.extend(bounds);
   }
-  for (const Instance& instance : scene.instances) box.extend(instance.bounds(scene.shared[instance.shared]->bounds()));
+  for (const Instance& instance : scene.instances)
+    box.extend(instance.bounds(scene.shared[instance.shared]->bounds()));
   if (box.is_empty()) box = {Vector3f(-1), Vector3f(1)};
   CameraDraft camera;
   const FieldOfView fov = field_of_view(camera, aspect);
@@ -54,8 +55,8 @@ CameraDraft framing_camera(const SceneDescription& scene, double aspect) {
   double distance = 0;
   for (const Vector3d& corner : corners(box)) {
     const Vector3d p = corner - middle;
-    const double across = std::max(std::abs(glm::dot(p, right)) / fov.half_width,
-                                   std::abs(glm::dot(p, up)) / fov.half_height);
+    const double across =
+        std::max(std::abs(glm::dot(p, right)) / fov.half_width, std::abs(glm::dot(p, up)) / fov.half_height);
     distance = std::max(distance, glm::dot(p, back) + across);
   }
   constexpr double kMargin = 1.05;
@@ -79,7 +80,8 @@ const CameraDraft& chosen_camera(const SceneDraft& draft, const std::string& nam
 
 // Whether a box lies wholly outside of the pyramid that the camera sees.
 bool is_outside_of_view(const Box3f& box, const Camera& camera) {
-  const Vector3d eye = camera.position(), forward = camera.forward(), right = camera.right(), up = camera.up();
+  const Vector3d eye = camera.position(), forward = camera.forward(), right = camera.right(),
+                 up = camera.up();
   const double width2 = glm::dot(right, right), height2 = glm::dot(up, up);
   const Vector3d normals[] = {forward, width2 * forward + right, width2 * forward - right,
                               height2 * forward + up, height2 * forward - up};
@@ -106,7 +108,8 @@ bool sees_endless_shape(const Shape& shape, const Camera& camera) {
 bool is_anything_in_view(const SceneDescription& scene) {
   for (const auto& shape : scene.shapes) {
     const Box3f bounds = shape->bounds();
-    if (bounds.is_finite() ? !is_outside_of_view(bounds, scene.camera) : sees_endless_shape(*shape, scene.camera)) {
+    if (bounds.is_finite() ? !is_outside_of_view(bounds, scene.camera)
+                           : sees_endless_shape(*shape, scene.camera)) {
       return true;
     }
   }
@@ -127,8 +130,8 @@ void warn_of_ghosts(const CameraDraft& camera, int samples, Diagnostics& diagnos
 
 }  // namespace
 
-RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::string& name, bool depends_on_time,
-                      Diagnostics& diagnostics) {
+RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::string& name,
+                      bool depends_on_time, Diagnostics& diagnostics) {
   RenderSettings settings;
   settings.width = options.width.value_or(draft.image_size[0]);
   settings.height = options.height.value_or(draft.image_size[1]);

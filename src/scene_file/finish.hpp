@@ -9,10 +9,10 @@
 
 namespace raytracer::scene_file {
 
-/// Completes the draft's scene and settings. A scene that doesn't depend on time needs no open shutter. `name` is the
-/// scene's name in messages about the whole of it. Throws Error (kUsage) where the options ask for a camera that is not
-/// there.
-RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::string& name, bool depends_on_time,
-                      Diagnostics& diagnostics);
+/// Completes the draft's scene and settings. A scene that doesn't depend on time needs no open shutter.
+/// `name` is the scene's name in messages about the whole of it. Throws Error (kUsage) where the options ask
+/// for a camera that is not there.
+RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::string& name,
+                      bool depends_on_time, Diagnostics& diagnostics);
 
 }  // namespace raytracer::scene_file

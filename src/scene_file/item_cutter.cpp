@@ -21,7 +21,8 @@ bool ItemCutter::is_needed(std::span<const ItemNode> items) const {
     }
     const auto* property = std::get_if<const PropertyNode*>(&item);
     if (property == nullptr) continue;
-    if (find_property(row_, source_.text((*property)->name)) == nullptr || (*property)->values.empty()) return true;
+    if (find_property(row_, source_.text((*property)->name)) == nullptr || (*property)->values.empty())
+      return true;
   }
   return false;
 }
@@ -84,7 +85,8 @@ bool ItemCutter::is_header(std::size_t first, const BlockNode* body) const {
 }
 
 // Whether the value at `next` still belongs to the property that begins at `first`.
-bool ItemCutter::takes(const PropertyRow* row, std::size_t first, std::size_t next, const BlockNode* body) const {
+bool ItemCutter::takes(const PropertyRow* row, std::size_t first, std::size_t next,
+                       const BlockNode* body) const {
   const ValueNode& value = run_[next];
   if (value.kind != ValueKind::kWord) return true;
   if (is_header(next, body)) return false;

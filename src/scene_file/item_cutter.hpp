@@ -1,8 +1,9 @@
 // Puts together what the parser, which does not know what a property takes, has cut at the wrong words.
 //
-// `center x 0 z  radius r` was read as `center x 0`, `z radius`, `r`. Here the words and values between two braces are one
-// run again, and are cut by the kind's rows: a property takes as many values as its row says, and a word that names a
-// property of the kind begins the next one. What is left in front of a '{' is the header of a block.
+// `center x 0 z  radius r` was read as `center x 0`, `z radius`, `r`. Here the words and values between two
+// braces are one run again, and are cut by the kind's rows: a property takes as many values as its row says,
+// and a word that names a property of the kind begins the next one. What is left in front of a '{' is the
+// header of a block.
 #pragma once
 
 #include <functional>

@@ -45,7 +45,8 @@ constexpr PropertyRow kCamera[] = {
         .in(kDegrees)
         .within(kFieldOfView)
         .or_else("follows from fov"),
-    property<&CameraInput::shutter>("shutter", "The share of a frame's time that it is open: blurs what moves.")
+    property<&CameraInput::shutter>("shutter",
+                                    "The share of a frame's time that it is open: blurs what moves.")
         .within(kShare),
 };
 void build_camera(const CameraInput& in, BlockContext& block) {
@@ -120,7 +121,10 @@ struct AnimationInput {
   double duration = 0, fps = 24;
 };
 constexpr PropertyRow kAnimation[] = {
-    property<&AnimationInput::duration>("duration", "How long it lasts.").in("seconds").within({0, 1e6, true}).must_be_given(),
+    property<&AnimationInput::duration>("duration", "How long it lasts.")
+        .in("seconds")
+        .within({0, 1e6, true})
+        .must_be_given(),
     property<&AnimationInput::fps>("fps", "Frames per second.").within({0.001, 1000}),
 };
 void build_animation(const AnimationInput& in, BlockContext& block) {
@@ -143,13 +147,15 @@ constexpr PropertyRow kLightPosition =
 constexpr PropertyRow kLightColor =
     property<&LightInput::color>("color", "The colour of its light.").within(kBrightness);
 constexpr PropertyRow kLightIntensity =
-    property<&LightInput::intensity>("intensity", "Its strength; 255 shows white as white at distance 1, 2550 at 10.")
+    property<&LightInput::intensity>("intensity",
+                                     "Its strength; 255 shows white as white at distance 1, 2550 at 10.")
         .within(kBrightness);
 constexpr PropertyRow kLightFalloff =
     property<&LightInput::falloff>("falloff", "How it fades with distance d: 1, 1/d or 1/d^2.")
         .one_of(kFalloffs);
 constexpr PropertyRow kLightDirection =
-    property<&LightInput::direction>("direction", "The way the light travels, of any length.").or_else("0 -1 0");
+    property<&LightInput::direction>("direction", "The way the light travels, of any length.")
+        .or_else("0 -1 0");
 
 constexpr PropertyRow kPointLight[] = {kLightPosition, kLightColor, kLightIntensity, kLightFalloff};
 constexpr PropertyRow kDirectionalLight[] = {kLightDirection, kLightColor, kLightIntensity};
@@ -160,7 +166,8 @@ constexpr PropertyRow kSpotLight[] = {
         .or_else("along direction"),
     kLightDirection,
     property<&LightInput::angle>("angle", "The full width of its cone.").in(kDegrees).within({0, 360, true}),
-    property<&LightInput::soft_edge>("soft_edge", "Over how much of the cone's angle it fades out, from the rim inwards.")
+    property<&LightInput::soft_edge>("soft_edge",
+                                     "Over how much of the cone's angle it fades out, from the rim inwards.")
         .within(kShare),
     kLightColor,
     kLightIntensity,
@@ -255,7 +262,8 @@ std::span<const KindRow> setting_kinds() {
       setting(kind<CameraInput, build_camera>("camera", "Where the picture is taken from.", kCamera),
               Placing::kRigid),
       setting(kind<RenderInput, build_render>("render", "How the picture is computed.", kRender)),
-      setting(kind<BackgroundInput, build_background>("background", "What is behind everything.", kBackground)),
+      setting(
+          kind<BackgroundInput, build_background>("background", "What is behind everything.", kBackground)),
       setting(kind<AnimationInput, build_animation>("animation", "How much time there is.", kAnimation)),
   };
   return rows;
@@ -265,9 +273,11 @@ std::span<const KindRow> light_kinds() {
   static const KindRow rows[] = {
       light(kind<LightInput, build_point_light>("light", "A point that shines all around.", kPointLight), ""),
       light(kind<LightInput, build_point_light>("light", "The same, named in full.", kPointLight), "point"),
-      light(kind<LightInput, build_directional_light>("light", "Parallel light from far away.", kDirectionalLight),
+      light(kind<LightInput, build_directional_light>("light", "Parallel light from far away.",
+                                                      kDirectionalLight),
             "directional"),
-      light(kind<LightInput, build_spot_light>("light", "A point that shines within a cone.", kSpotLight), "spot"),
+      light(kind<LightInput, build_spot_light>("light", "A point that shines within a cone.", kSpotLight),
+            "spot"),
   };
   return rows;
 }
@@ -283,7 +293,8 @@ std::span<const KindRow> material_kinds() {
 
 std::span<const KindRow> group_kinds() {
   static const KindRow rows[] = {[] {
-    KindRow row = kind<GroupInput, build_group>("group", "Blocks that move together and share a material.", {});
+    KindRow row =
+        kind<GroupInput, build_group>("group", "Blocks that move together and share a material.", {});
     row.placing = Placing::kAffine;
     row.takes_material = true;
     row.has_children = true;

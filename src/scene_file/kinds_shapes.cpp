@@ -104,9 +104,8 @@ constexpr PropertyRow kCone[] = {
 };
 void build_cone(const ConeInput& in, BlockContext& block) {
   const Vector3d middle = 0.5 * in.base + 0.5 * in.top;
-  block.add_shape([&] {
-    return make_cone(in.base, in.radius, in.top, in.top_radius, in.open, block.placed(middle));
-  });
+  block.add_shape(
+      [&] { return make_cone(in.base, in.radius, in.top, in.top_radius, in.open, block.placed(middle)); });
 }
 
 struct TorusInput {

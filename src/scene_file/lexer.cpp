@@ -11,7 +11,8 @@ namespace {
 // <cctype> follows the locale; scene files do not.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-// No word of the language has letters beyond ASCII; they are read as part of one so that the message names the whole word.
+// No word of the language has letters beyond ASCII; they are read as part of one so that the message names
+// the whole word.
 bool is_foreign(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 bool is_word_character(char c) { return is_letter(c) || is_digit(c) || is_foreign(c); }
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -84,24 +85,35 @@ Token Lexer::next(LexMode mode) {
   if (is_foreign(c) && starts_with_lookalike()) return lex_lookalike();
   if (is_letter(c) || is_foreign(c)) return lex_word();
   const bool is_sign = c == '+' || c == '-';
-  if (starts_number(position_) ||
-      (mode == LexMode::kValues && is_sign && starts_number(position_ + 1))) {
+  if (starts_number(position_) || (mode == LexMode::kValues && is_sign && starts_number(position_ + 1))) {
     return lex_number();
   }
   switch (c) {
-    case '"': return lex_string();
-    case '#': return lex_color();
-    case '{': ++position_; return token(TokenType::kOpenBrace, begin);
-    case '}': ++position_; return token(TokenType::kCloseBrace, begin);
-    case '(': ++position_; return token(TokenType::kOpenParenthesis, begin);
-    case ')': ++position_; return token(TokenType::kCloseParenthesis, begin);
-    default: return lex_operator(mode);
+    case '"':
+      return lex_string();
+    case '#':
+      return lex_color();
+    case '{':
+      ++position_;
+      return token(TokenType::kOpenBrace, begin);
+    case '}':
+      ++position_;
+      return token(TokenType::kCloseBrace, begin);
+    case '(':
+      ++position_;
+      return token(TokenType::kOpenParenthesis, begin);
+    case ')':
+      ++position_;
+      return token(TokenType::kCloseParenthesis, begin);
+    default:
+      return lex_operator(mode);
   }
 }
 
 Token Lexer::lex_word() {
   const std::uint32_t begin = position_;
-  while (is_word_character(at(position_)) && !(is_foreign(at(position_)) && starts_with_lookalike())) ++position_;
+  while (is_word_character(at(position_)) && !(is_foreign(at(position_)) && starts_with_lookalike()))
+    ++position_;
   return token(TokenType::kWord, begin);
 }
 
@@ -122,7 +134,8 @@ Token Lexer::lex_number() {
     while (is_word_character(at(position_)) || at(position_) == '.') ++position_;
     const std::string_view written = source_->text({begin, position_});
     const std::size_t cross = written.find('x');
-    const bool is_size = cross != std::string_view::npos && cross > 0 && is_digit(written[cross - 1]) && cross + 1 < written.size();
+    const bool is_size = cross != std::string_view::npos && cross > 0 && is_digit(written[cross - 1]) &&
+                         cross + 1 < written.size();
     error({begin, position_}, fmt::format("'{}' is not a number", written),
           is_size ? fmt::format("two numbers have a space between them: {} {}", written.substr(0, cross),
                                 written.substr(cross + 1))
@@ -218,8 +231,8 @@ std::string_view Lexer::hint_for(std::uint32_t begin, LexMode mode) const {
 bool Lexer::starts_with_lookalike() const {
   const std::string_view rest = text_.substr(position_, 3);
   if (rest.starts_with(kNoBreakSpace)) return true;
-  return rest == "\xE2\x80\x9C" || rest == "\xE2\x80\x9D" || rest == "\xE2\x80\x9E" || rest == "\xE2\x88\x92" ||
-         rest == "\xE2\x80\x93";
+  return rest == "\xE2\x80\x9C" || rest == "\xE2\x80\x9D" || rest == "\xE2\x80\x9E" ||
+         rest == "\xE2\x88\x92" || rest == "\xE2\x80\x93";
 }
 
 Token Lexer::lex_lookalike() {
@@ -244,7 +257,8 @@ Token Lexer::lex_lookalike() {
         break;
       }
     }
-    error({begin, position_}, fmt::format("'{}' is not a quotation mark", sign), "strings stand between \"…\"");
+    error({begin, position_}, fmt::format("'{}' is not a quotation mark", sign),
+          "strings stand between \"…\"");
   }
   return token(TokenType::kBad, begin);
 }

@@ -38,7 +38,8 @@ struct ReadToken {
   LexMode mode = LexMode::kValues;
 };
 
-/// Reads tokens one after the other. Comments are kept aside, with their places, for tools that rewrite files.
+/// Reads tokens one after the other. Comments are kept aside, with their places, for tools that rewrite
+/// files.
 class Lexer {
  public:
   Lexer(const Source& source, Diagnostics& diagnostics);

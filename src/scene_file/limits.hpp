@@ -1,5 +1,5 @@
-// How much a scene may ask for before it is taken for a mistake. Counted in things, never in seconds: a scene is valid on
-// every machine or on none.
+// How much a scene may ask for before it is taken for a mistake. Counted in things, never in seconds: a scene
+// is valid on every machine or on none.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace raytracer::scene_file {
 
 struct LimitRow {
   std::string_view name;  ///< behind --limit
-  std::uint64_t Limits::* field;
+  std::uint64_t Limits::*field;
   std::string_view help;
 };
 

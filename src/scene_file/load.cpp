@@ -65,8 +65,10 @@ class ScenesOverTime {
     build(builder, time, diagnostics);
     for (const scene_file::CameraDraft& camera : builder.draft().cameras) {
       if (camera.shutter == 0) continue;
-      diagnostics.error(camera.place, "with an open shutter a picture shows more than one moment", "shutter 0");
-      throw Error(ErrorKind::kScene, fmt::format("the scene can't be written as JSON\n{}", all_messages(diagnostics)));
+      diagnostics.error(camera.place, "with an open shutter a picture shows more than one moment",
+                        "shutter 0");
+      throw Error(ErrorKind::kScene,
+                  fmt::format("the scene can't be written as JSON\n{}", all_messages(diagnostics)));
     }
     return recorder.text();
   }
@@ -101,7 +103,8 @@ class ScenesOverTime {
     scene_file::apply_settings(text_->options.settings, *text_->files, builder);
     builder.build(*text_->tree);
     if (!diagnostics.has_errors()) return;
-    throw Error(ErrorKind::kScene, fmt::format("the scene is wrong at t = {}:\n{}", time, all_messages(diagnostics)));
+    throw Error(ErrorKind::kScene,
+                fmt::format("the scene is wrong at t = {}:\n{}", time, all_messages(diagnostics)));
   }
 
   Evaluated evaluate(double time, bool with_moment) const {
@@ -126,7 +129,8 @@ class ScenesOverTime {
   std::shared_ptr<const Scene> only_scene_;  // of a scene that does not depend on time
 };
 
-LoadedScene load(std::string text, const std::string& name, const std::string& path, const LoadOptions& options) {
+LoadedScene load(std::string text, const std::string& name, const std::string& path,
+                 const LoadOptions& options) {
   // The folder of a bare file name is the current one.
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const auto scene_text = std::make_shared<SceneText>();

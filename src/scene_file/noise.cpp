@@ -16,7 +16,8 @@ std::uint64_t hash_numbers(std::span<const double> numbers) {
   return hash;
 }
 
-// The product of the offset with one of the twelve edge directions of a cube, by the hash of the lattice point.
+// The product of the offset with one of the twelve edge directions of a cube, by the hash of the lattice
+// point.
 double gradient(double x, double y, double z, const Vector3d& offset) {
   const double point[] = {x, y, z};
   const std::uint64_t hash = hash_numbers(point);

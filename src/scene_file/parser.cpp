@@ -1,7 +1,9 @@
-// A recursive-descent parser; the grammar stands in docs/scene-language.md. It needs no more of the vocabulary than that
-// a `light` may carry two words, and it uses the properties' names only to tell what was forgotten. A bare word directly
-// behind a property's name is its value, any other begins the next property or block; where that is not what was meant
-// (`center x y z` with three names), the builder, which knows what a property takes, puts the pieces together.
+// A recursive-descent parser; the grammar stands in docs/scene-language.md. It needs no more of the
+// vocabulary than that a `light` may carry two words, and it uses the properties' names only to tell what was
+// forgotten. A bare word directly behind a property's name is its value, any other begins the next property
+// or block; where that is not what was meant
+// (`center x y z` with three names), the builder, which knows what a property takes, puts the pieces
+// together.
 #include "scene_file/parser.hpp"
 
 #include <fmt/format.h>
@@ -41,8 +43,9 @@ class Parser {
   using Context = std::string_view;
 
   bool current_is_value() const {
-    return tokens_.is(TokenType::kNumber) || tokens_.is(TokenType::kString) || tokens_.is(TokenType::kColor) ||
-           tokens_.is(TokenType::kBad) || tokens_.is(TokenType::kOpenParenthesis);
+    return tokens_.is(TokenType::kNumber) || tokens_.is(TokenType::kString) ||
+           tokens_.is(TokenType::kColor) || tokens_.is(TokenType::kBad) ||
+           tokens_.is(TokenType::kOpenParenthesis);
   }
   template <class Node>
   void add(std::vector<ItemNode>& items, const Node* node) {
@@ -84,8 +87,9 @@ void Parser::parse_version() {
   const bool is_number = tokens_.is(TokenType::kNumber);
   if (!is_number || tokens_.current().number != kLanguageVersion) {
     tokens_.error(is_number ? tokens_.current().span : keyword,
-                  is_number ? fmt::format("the scene is written in version {} of the language", tokens_.text())
-                            : "the version of the language is missing",
+                  is_number
+                      ? fmt::format("the scene is written in version {} of the language", tokens_.text())
+                      : "the version of the language is missing",
                   fmt::format("this program reads 'raytracer {}'", kLanguageVersion));
   }
   if (is_number) tokens_.advance();
@@ -120,7 +124,8 @@ void Parser::parse_item(Context context, std::vector<ItemNode>& items) {
   }
   const int words = words_before_brace();
   if (words > 0) return add(items, parse_block(words));
-  if (find_kind(tokens_.text()) != nullptr && !is_property_of(context, tokens_.text())) return parse_bad_block(items);
+  if (find_kind(tokens_.text()) != nullptr && !is_property_of(context, tokens_.text()))
+    return parse_bad_block(items);
   add(items, parse_property(context));
 }
 
@@ -134,7 +139,7 @@ void Parser::parse_bad_block(std::vector<ItemNode>& items) {
   Span junk_end = token.span;
   int count = 0;
   while (count < kMostJunk && (token.type == TokenType::kWord || token.type == TokenType::kString ||
-                              token.type == TokenType::kNumber || token.type == TokenType::kOperator)) {
+                               token.type == TokenType::kNumber || token.type == TokenType::kOperator)) {
     junk_end = token.span;
     token = ahead.next(LexMode::kValues);
     ++count;
@@ -151,7 +156,8 @@ void Parser::parse_bad_block(std::vector<ItemNode>& items) {
     block.end = tokens_.previous_end();
     return add(items, tree_->arena.make(block));
   }
-  tokens_.error(kind, fmt::format("'{}' needs braces", tokens_.text(kind)), fmt::format("{} {{ … }}", tokens_.text(kind)));
+  tokens_.error(kind, fmt::format("'{}' needs braces", tokens_.text(kind)),
+                fmt::format("{} {{ … }}", tokens_.text(kind)));
   tokens_.advance();
   // What follows are its properties, up to a '}' or the next block.
   tokens_.mute(true);
@@ -192,7 +198,8 @@ std::span<const ItemNode> Parser::parse_body(Span keyword, Context context) {
   } else {
     tokens_ended_open_ = true;
     if (!tokens_.ended_in_comment()) {
-      tokens_.error(open, fmt::format("this '{{' of '{}' is never closed", tokens_.text(keyword)), "'}' is missing");
+      tokens_.error(open, fmt::format("this '{{' of '{}' is never closed", tokens_.text(keyword)),
+                    "'}' is missing");
     }
   }
   return items;
@@ -211,11 +218,13 @@ const BlockNode* Parser::parse_block(int words) {
   tokens_.advance();
   block.items = parse_body(block.kind, tokens_.text(block.kind));
   block.end = tokens_.previous_end();
-  block.is_closed = block.end > block.kind.end && tokens_.text({block.end - 1, block.end}) == "}" && !tokens_ended_open_;
+  block.is_closed =
+      block.end > block.kind.end && tokens_.text({block.end - 1, block.end}) == "}" && !tokens_ended_open_;
   return tree_->arena.make(block);
 }
 
-// Whether the word that follows a property's name is not its value but the next property: `radius center 0 1 0`.
+// Whether the word that follows a property's name is not its value but the next property: `radius center 0 1
+// 0`.
 bool Parser::begins_next_property(Context context) const {
   if (is_statement(tokens_.text())) return true;
   if (!is_property_of(context, tokens_.text())) return false;
@@ -229,19 +238,28 @@ ValueNode Parser::take_value() {
   value.span = tokens_.current().span;
   value.number = tokens_.current().number;
   switch (tokens_.current().type) {
-    case TokenType::kNumber: value.kind = ValueKind::kNumber; break;
-    case TokenType::kString: value.kind = ValueKind::kString; break;
-    case TokenType::kColor: value.kind = ValueKind::kColor; break;
+    case TokenType::kNumber:
+      value.kind = ValueKind::kNumber;
+      break;
+    case TokenType::kString:
+      value.kind = ValueKind::kString;
+      break;
+    case TokenType::kColor:
+      value.kind = ValueKind::kColor;
+      break;
     case TokenType::kWord:
       value.kind = ValueKind::kWord;
       value.name = tokens_.name_of(value.span);
       break;
     case TokenType::kOpenParenthesis:
       value.expression = ExpressionParser(tokens_).parse_parenthesised();
-      value.kind = value.expression->operation == Operation::kUnknown ? ValueKind::kBad : ValueKind::kExpression;
+      value.kind =
+          value.expression->operation == Operation::kUnknown ? ValueKind::kBad : ValueKind::kExpression;
       value.span = value.expression->span;
       return value;
-    default: value.kind = ValueKind::kBad; break;
+    default:
+      value.kind = ValueKind::kBad;
+      break;
   }
   tokens_.advance();
   return value;
@@ -253,7 +271,8 @@ const PropertyNode* Parser::parse_property(Context context) {
   property.name_id = tokens_.name_of(property.name);
   tokens_.advance();
   if (tokens_.is_operator("=") && (context.empty() || context == "group")) {
-    tokens_.error(property.name, fmt::format("'{}' is given a value without 'let'", tokens_.text(property.name)),
+    tokens_.error(property.name,
+                  fmt::format("'{}' is given a value without 'let'", tokens_.text(property.name)),
                   fmt::format("let {} = …", tokens_.text(property.name)));
     skip_to_statement();
     return nullptr;
@@ -263,7 +282,8 @@ const PropertyNode* Parser::parse_property(Context context) {
   bool is_bad = false;
   while (true) {
     const bool is_stray = tokens_.is(TokenType::kOperator) || tokens_.is(TokenType::kCloseParenthesis);
-    const bool is_glued = is_bad && tokens_.is(TokenType::kWord) && tokens_.current().span.begin == tokens_.previous_end();
+    const bool is_glued =
+        is_bad && tokens_.is(TokenType::kWord) && tokens_.current().span.begin == tokens_.previous_end();
     if (is_stray && !is_bad) {
       values.push_back({});
       values.back().span = tokens_.current().span;
@@ -299,7 +319,8 @@ const IncludeNode* Parser::parse_include() {
 
 // The word that a statement gives a meaning to.
 bool Parser::take_new_name(Span keyword, std::string_view what, Span& span, NameId& name) {
-  const bool is_clause = tokens_.is_word("from") || tokens_.is_word("to") || tokens_.is_word("step");
+  const bool is_clause = tokens_.text(keyword) == "for" &&
+                         (tokens_.is_word("from") || tokens_.is_word("to") || tokens_.is_word("step"));
   if (!tokens_.is(TokenType::kWord) || is_clause) {
     if (!tokens_.is(TokenType::kBad)) {
       tokens_.error(keyword, fmt::format("'{}' needs a name", tokens_.text(keyword)), std::string(what));
@@ -316,8 +337,8 @@ bool Parser::take_new_name(Span keyword, std::string_view what, Span& span, Name
   return true;
 }
 
-// After a statement that can't be understood: silently on to the next one, which begins with a keyword or in a new line, and
-// over the braces that belong to this one.
+// After a statement that can't be understood: silently on to the next one, which begins with a keyword or in
+// a new line, and over the braces that belong to this one.
 void Parser::skip_to_statement() {
   tokens_.mute(true);
   std::uint32_t end = tokens_.previous_end();
@@ -343,7 +364,8 @@ const LetNode* Parser::parse_let() {
   tokens_.advance();
   if (!tokens_.is_operator("=")) {
     if (!tokens_.is(TokenType::kBad)) {
-      tokens_.error(let.name_span, fmt::format("'let {}' needs a '=' and a value", tokens_.text(let.name_span)),
+      tokens_.error(let.name_span,
+                    fmt::format("'let {}' needs a '=' and a value", tokens_.text(let.name_span)),
                     "let n = 12");
     }
     skip_to_statement();
@@ -353,10 +375,12 @@ const LetNode* Parser::parse_let() {
   tokens_.advance();
   let.value = ExpressionParser(tokens_).parse_open();
   // `let p = 1 2 3`: a vector has parentheses.
-  if (let.value->operation != Operation::kUnknown && (tokens_.is(TokenType::kNumber) || tokens_.is(TokenType::kString))) {
+  if (let.value->operation != Operation::kUnknown &&
+      (tokens_.is(TokenType::kNumber) || tokens_.is(TokenType::kString))) {
     const Span extra = tokens_.current().span;
     while (current_is_value()) take_value();
-    tokens_.error({extra.begin, tokens_.previous_end()}, "'let' takes one value", "a vector is written (1, 2, 3)");
+    tokens_.error({extra.begin, tokens_.previous_end()}, "'let' takes one value",
+                  "a vector is written (1, 2, 3)");
   }
   return tree_->arena.make(let);
 }
@@ -437,9 +461,11 @@ const DefineNode* Parser::parse_define() {
   DefineNode define;
   define.keyword = tokens_.current().span;
   tokens_.advance();
-  if (!take_new_name(define.keyword, "define tree (height 2) { … }", define.name_span, define.name)) return nullptr;
+  if (!take_new_name(define.keyword, "define tree (height 2) { … }", define.name_span, define.name))
+    return nullptr;
   if (find_kind(tokens_.text()) != nullptr) {
-    tokens_.error(define.name_span, fmt::format("'{}' is built in and can't be given another meaning", tokens_.text()),
+    tokens_.error(define.name_span,
+                  fmt::format("'{}' is built in and can't be given another meaning", tokens_.text()),
                   "choose another name");
   }
   tokens_.advance();
@@ -459,8 +485,8 @@ const DefineNode* Parser::parse_define() {
     tokens_.advance();
   }
   if (!tokens_.is(TokenType::kOpenBrace)) {
-    tokens_.error({define.keyword.begin, define.name_span.end}, "'define' needs braces around what it defines",
-                  "define tree (height 2) { … }");
+    tokens_.error({define.keyword.begin, define.name_span.end},
+                  "'define' needs braces around what it defines", "define tree (height 2) { … }");
     skip_to_statement();
     return nullptr;
   }
@@ -477,7 +503,8 @@ bool Parser::parse_parameter(std::vector<ParameterNode>& parameters) {
   const std::string_view word = tokens_.text();
   const bool taken = is_reserved(word) || is_property_of("group", word);
   if (taken) {
-    tokens_.error(parameter.name_span, fmt::format("'{}' can't be a parameter: it has a meaning of its own", word),
+    tokens_.error(parameter.name_span,
+                  fmt::format("'{}' can't be a parameter: it has a meaning of its own", word),
                   "choose another name");
   }
   for (const ParameterNode& other : parameters) {
@@ -487,7 +514,8 @@ bool Parser::parse_parameter(std::vector<ParameterNode>& parameters) {
   }
   tokens_.advance();
   if (tokens_.is_operator("=")) {
-    tokens_.error(tokens_.current().span, "a default follows its parameter without '='", fmt::format("({} 1)", word));
+    tokens_.error(tokens_.current().span, "a default follows its parameter without '='",
+                  fmt::format("({} 1)", word));
     tokens_.mute(true);
     while (!tokens_.is(TokenType::kCloseParenthesis) && !tokens_.is(TokenType::kOpenBrace) &&
            !tokens_.is(TokenType::kCloseBrace) && !tokens_.is(TokenType::kEnd)) {
@@ -514,7 +542,8 @@ bool Parser::parse_parameter(std::vector<ParameterNode>& parameters) {
 void Parser::report_stray() {
   const Token stray = tokens_.current();
   switch (stray.type) {
-    case TokenType::kBad: break;  // the lexer has said it
+    case TokenType::kBad:
+      break;  // the lexer has said it
     case TokenType::kOpenBrace:
       tokens_.error(stray.span, "this '{' belongs to no block", "a block begins with its kind: sphere { … }");
       return skip_nested_braces();
@@ -522,7 +551,8 @@ void Parser::report_stray() {
     case TokenType::kCloseParenthesis: {
       const bool separates = tokens_.text() == "," || tokens_.text() == "=";
       while (tokens_.is(TokenType::kOperator) || tokens_.is(TokenType::kCloseParenthesis)) tokens_.advance();
-      tokens_.error({stray.span.begin, tokens_.previous_end()}, fmt::format("unexpected '{}'", tokens_.text(stray.span)),
+      tokens_.error({stray.span.begin, tokens_.previous_end()},
+                    fmt::format("unexpected '{}'", tokens_.text(stray.span)),
                     separates ? "values are separated by spaces alone"
                               : "a computed value stands in parentheses: (2 * r)");
       return;
@@ -531,8 +561,9 @@ void Parser::report_stray() {
       while (current_is_value()) take_value();
       const Span all = {stray.span.begin, tokens_.previous_end()};
       const bool several = all.end > stray.span.end;
-      tokens_.error(all, several ? "these values belong to no property"
-                                 : fmt::format("{} belongs to no property", tokens_.text(all)),
+      tokens_.error(all,
+                    several ? "these values belong to no property"
+                            : fmt::format("{} belongs to no property", tokens_.text(all)),
                     "a property begins with its name: radius 1");
       return;
     }
@@ -556,7 +587,8 @@ std::unique_ptr<SyntaxTree> parse(const Source& source, Names& names, Diagnostic
   return Parser(source, names, diagnostics, record).parse();
 }
 
-const Expression* parse_lone_expression(const Source& source, Names& names, Arena& arena, Diagnostics& diagnostics) {
+const Expression* parse_lone_expression(const Source& source, Names& names, Arena& arena,
+                                        Diagnostics& diagnostics) {
   TokenReader tokens(source, names, arena, diagnostics);
   const std::size_t errors_before = diagnostics.error_count();
   // The first token was read as a value would be: a sign belongs to its number, which does no harm.

@@ -16,12 +16,13 @@ inline constexpr int kLanguageVersion = 1;
 /// Blocks inside blocks, and parentheses inside parentheses, at most; the parser is recursive.
 inline constexpr int kDeepestNesting = 256;
 
-/// Parses a source; mistakes go to `diagnostics`, and what can be understood in spite of them is in the tree. `record`,
-/// where it is given, gets all tokens in their order.
+/// Parses a source; mistakes go to `diagnostics`, and what can be understood in spite of them is in the tree.
+/// `record`, where it is given, gets all tokens in their order.
 std::unique_ptr<SyntaxTree> parse(const Source& source, Names& names, Diagnostics& diagnostics,
                                   std::vector<ReadToken>* record = nullptr);
 
 /// Parses a text that is one expression alone; null where it is none, which has then been reported.
-const Expression* parse_lone_expression(const Source& source, Names& names, Arena& arena, Diagnostics& diagnostics);
+const Expression* parse_lone_expression(const Source& source, Names& names, Arena& arena,
+                                        Diagnostics& diagnostics);
 
 }  // namespace raytracer::scene_file

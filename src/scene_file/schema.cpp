@@ -34,7 +34,8 @@ constexpr PropertyRow kTransformRows[] = {
     common("pivot", PropertyType::kVector, "scene units",
            "The spot to turn and grow about, in place of its own middle.", "its middle"),
     common("matrix", PropertyType::kMatrix, "",
-           "In place of all these: three rows of four numbers, applied to columns.", "1 0 0 0  0 1 0 0  0 0 1 0"),
+           "In place of all these: three rows of four numbers, applied to columns.",
+           "1 0 0 0  0 1 0 0  0 0 1 0"),
 };
 
 constexpr PropertyRow kMaterialRow =
@@ -90,19 +91,31 @@ bool is_property_of(std::string_view kind, std::string_view property) {
 
 std::string describe_type(const PropertyRow& row) {
   switch (row.type) {
-    case PropertyType::kNumber: return "a number";
-    case PropertyType::kInteger: return "a whole number";
-    case PropertyType::kBoolean: return "true or false";
-    case PropertyType::kString: return "a string";
-    case PropertyType::kVector: return "three numbers";
-    case PropertyType::kSize: return "one number or three";
-    case PropertyType::kPixels: return "two whole numbers";
-    case PropertyType::kColor: return "a colour";
+    case PropertyType::kNumber:
+      return "a number";
+    case PropertyType::kInteger:
+      return "a whole number";
+    case PropertyType::kBoolean:
+      return "true or false";
+    case PropertyType::kString:
+      return "a string";
+    case PropertyType::kVector:
+      return "three numbers";
+    case PropertyType::kSize:
+      return "one number or three";
+    case PropertyType::kPixels:
+      return "two whole numbers";
+    case PropertyType::kColor:
+      return "a colour";
     case PropertyType::kWord:
-      return row.words.size() == 1 ? std::string(row.words[0]) : fmt::format("one of {}", fmt::join(row.words, ", "));
-    case PropertyType::kMaterial: return "a material";
-    case PropertyType::kAxisAngle: return "an axis x y z and an angle";
-    case PropertyType::kMatrix: return "twelve numbers";
+      return row.words.size() == 1 ? std::string(row.words[0])
+                                   : fmt::format("one of {}", fmt::join(row.words, ", "));
+    case PropertyType::kMaterial:
+      return "a material";
+    case PropertyType::kAxisAngle:
+      return "an axis x y z and an angle";
+    case PropertyType::kMatrix:
+      return "twelve numbers";
   }
   return {};
 }
@@ -112,16 +125,26 @@ std::string example_value(const PropertyRow& row) {
     case PropertyType::kNumber:
     case PropertyType::kInteger:
       return detail::number_text(std::clamp(1.0, row.range.least, row.range.most));
-    case PropertyType::kBoolean: return "true";
-    case PropertyType::kString: return "\"text\"";
-    case PropertyType::kVector: return "0 1 0";
-    case PropertyType::kSize: return "1";
-    case PropertyType::kPixels: return "960 540";
-    case PropertyType::kColor: return "0.9 0.4 0.1";
-    case PropertyType::kWord: return std::string(row.words.front());
-    case PropertyType::kMaterial: return "{ color red }";
-    case PropertyType::kAxisAngle: return "0 1 0 45";
-    case PropertyType::kMatrix: return "1 0 0 0  0 1 0 0  0 0 1 0";
+    case PropertyType::kBoolean:
+      return "true";
+    case PropertyType::kString:
+      return "\"text\"";
+    case PropertyType::kVector:
+      return "0 1 0";
+    case PropertyType::kSize:
+      return "1";
+    case PropertyType::kPixels:
+      return "960 540";
+    case PropertyType::kColor:
+      return "0.9 0.4 0.1";
+    case PropertyType::kWord:
+      return std::string(row.words.front());
+    case PropertyType::kMaterial:
+      return "{ color red }";
+    case PropertyType::kAxisAngle:
+      return "0 1 0 45";
+    case PropertyType::kMatrix:
+      return "1 0 0 0  0 1 0 0  0 0 1 0";
   }
   return {};
 }

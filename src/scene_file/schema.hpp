@@ -1,5 +1,5 @@
-// The vocabulary of the scene language: one row registers a kind of block, one row each of its properties. Parsing,
-// checking, suggestions and `raytracer help` all read these rows.
+// The vocabulary of the scene language: one row registers a kind of block, one row each of its properties.
+// Parsing, checking, suggestions and `raytracer help` all read these rows.
 #pragma once
 
 #include <array>
@@ -53,7 +53,8 @@ struct Argument {
   bool depends_on_time = false;
 };
 
-/// A colour as written; 1 is white. Display colours (#rrggbb, names) are the same numbers in `method classic`.
+/// A colour as written; 1 is white. Display colours (#rrggbb, names) are the same numbers in `method
+/// classic`.
 struct ColorValue {
   Vector3d rgb{1};
 };
@@ -74,12 +75,13 @@ struct PropertyRow {
   bool required = false;
   bool is_placing = false;  ///< a transform word
   void (*store)(void* input, const Argument& argument) = nullptr;
-  std::string (*default_value)(const void* input, const PropertyRow& row) = nullptr;  ///< as it would be written
+  std::string (*default_value)(const void* input,
+                               const PropertyRow& row) = nullptr;  ///< as it would be written
 
  private:
   // First: Clang 14 wants it defined before the constants below are computed.
   template <class Field>
-  constexpr PropertyRow with(Field PropertyRow::* field, const Field& value) const {
+  constexpr PropertyRow with(Field PropertyRow::*field, const Field& value) const {
     PropertyRow row = *this;
     row.*field = value;
     return row;
@@ -91,7 +93,9 @@ struct PropertyRow {
   constexpr PropertyRow one_of(std::span<const std::string_view> list) const {
     return with(&PropertyRow::words, list);
   }
-  constexpr PropertyRow or_else(std::string_view said) const { return with(&PropertyRow::default_text, said); }
+  constexpr PropertyRow or_else(std::string_view said) const {
+    return with(&PropertyRow::default_text, said);
+  }
   constexpr PropertyRow as(PropertyType new_type) const { return with(&PropertyRow::type, new_type); }
   constexpr PropertyRow must_be_given() const { return with(&PropertyRow::required, true); }
 };
@@ -144,7 +148,8 @@ std::string describe_range(const Range& range, double value = 0);
 /// The default as it would be written, or words for it; empty where there is none.
 std::string describe_default(const KindRow& kind, const PropertyRow& row);
 
-// --- how rows are made ---------------------------------------------------------------------------------------------
+// --- how rows are made
+// ---------------------------------------------------------------------------------------------
 
 /// Gathers the block's properties into the struct that its rows name; false where one of them was wrong.
 bool fill(BlockContext& context, void* input);
@@ -188,7 +193,8 @@ T from_argument(const Argument& a) {
   if constexpr (std::is_same_v<T, bool>) return n[0] != 0;
   if constexpr (std::is_same_v<T, std::string>) return a.text;
   if constexpr (std::is_same_v<T, Vector3d>) return {n[0], n[1], n[2]};
-  if constexpr (std::is_same_v<T, std::array<int, 2>>) return {static_cast<int>(n[0]), static_cast<int>(n[1])};
+  if constexpr (std::is_same_v<T, std::array<int, 2>>)
+    return {static_cast<int>(n[0]), static_cast<int>(n[1])};
   if constexpr (std::is_same_v<T, ColorValue>) return {{n[0], n[1], n[2]}};
   if constexpr (std::is_same_v<T, MaterialIndex>) return {a.index};
   if constexpr (std::is_enum_v<T>) return static_cast<T>(a.index);
@@ -203,7 +209,8 @@ std::string to_text(const T& value, const PropertyRow& row) {
   } else if constexpr (std::is_same_v<T, bool>) {
     return value ? "true" : "false";
   } else if constexpr (std::is_same_v<T, Vector3d>) {
-    if (row.type == PropertyType::kSize && value.x == value.y && value.y == value.z) return number_text(value.x);
+    if (row.type == PropertyType::kSize && value.x == value.y && value.y == value.z)
+      return number_text(value.x);
     return number_text(value.x) + ' ' + number_text(value.y) + ' ' + number_text(value.z);
   } else if constexpr (std::is_same_v<T, std::array<int, 2>>) {
     return number_text(value[0]) + ' ' + number_text(value[1]);

@@ -1,5 +1,5 @@
-// Where the shapes of a scene gather while it is built: those that stand still, those that move, and those that are stored
-// once for many places.
+// Where the shapes of a scene gather while it is built: those that stand still, those that move, and those
+// that are stored once for many places.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace raytracer::scene_file {
 /// What one moment of a scene leaves to the next: the shapes that do not depend on time, built once for all.
 struct KeptShapes {
   bool has_still = false;
-  std::shared_ptr<const SharedShapes> still;                            ///< null where there are none
-  std::map<std::string, std::shared_ptr<const SharedShapes>> by_use;    ///< of definitions
+  std::shared_ptr<const SharedShapes> still;                          ///< null where there are none
+  std::map<std::string, std::shared_ptr<const SharedShapes>> by_use;  ///< of definitions
 };
 
 /// A list of shapes with their materials.
@@ -46,7 +46,9 @@ class ShapeStore {
   std::uint64_t endless_made() const { return endless_made_; }
 
   std::shared_ptr<const SharedShapes> find_kept(const std::string& key) const;
-  void keep(const std::string& key, const std::shared_ptr<const SharedShapes>& shared) { kept_.by_use[key] = shared; }
+  void keep(const std::string& key, const std::shared_ptr<const SharedShapes>& shared) {
+    kept_.by_use[key] = shared;
+  }
 
   /// A list with copies of just the materials that it uses.
   static std::shared_ptr<const SharedShapes> share(ShapeBatch list, const std::vector<Material>& materials);
@@ -63,7 +65,8 @@ class ShapeStore {
   std::vector<Instance> instances_;
 };
 
-/// What is known about one way to use a definition: with these arguments, and this material for what names none.
+/// What is known about one way to use a definition: with these arguments, and this material for what names
+/// none.
 struct UseRecord {
   std::uint64_t count = 0;
   std::uint64_t shapes = 0;                    ///< that the first use made

@@ -32,8 +32,8 @@ class Source {
   }
 
   LineColumn locate(std::uint32_t offset) const;
-  /// The line that holds `offset`, without its line end; of a long one the characters that lie within `reach` bytes
-  /// of it.
+  /// The line that holds `offset`, without its line end; of a long one the characters that lie within `reach`
+  /// bytes of it.
   std::string_view line_at(std::uint32_t offset, std::uint32_t reach = UINT32_MAX) const;
 
  private:

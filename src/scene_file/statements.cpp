@@ -13,17 +13,22 @@ namespace {
 constexpr std::uint64_t kStepsPerInclude = 10'000;
 constexpr std::uint64_t kStepsPerUse = 10;
 
-// A definition that makes fewer shapes is built at every use: an instance costs as much as a handful of shapes, and a ray
-// pays for entering it.
+// A definition that makes fewer shapes is built at every use: an instance costs as much as a handful of
+// shapes, and a ray pays for entering it.
 constexpr std::uint64_t kLeastToShare = 16;
 
 PropertyType parameter_type(ValueType type) {
   switch (type) {
-    case ValueType::kBoolean: return PropertyType::kBoolean;
-    case ValueType::kVector: return PropertyType::kVector;
-    case ValueType::kColor: return PropertyType::kColor;
-    case ValueType::kString: return PropertyType::kString;
-    default: return PropertyType::kNumber;
+    case ValueType::kBoolean:
+      return PropertyType::kBoolean;
+    case ValueType::kVector:
+      return PropertyType::kVector;
+    case ValueType::kColor:
+      return PropertyType::kColor;
+    case ValueType::kString:
+      return PropertyType::kString;
+    default:
+      return PropertyType::kNumber;
   }
 }
 
@@ -46,7 +51,8 @@ void Builder::build_include(const IncludeNode& include, const Surroundings& arou
   int& bad_turns = bad_includes_[tree];
   if (bad_turns > kMostBadTurns) return;
   const std::size_t errors_before = diagnostics_.error_count() + diagnostics_.repeated();
-  const Diagnostics::UsedFrom used_from(diagnostics_, {around.source, {include.keyword.begin, include.file.span.end}});
+  const Diagnostics::UsedFrom used_from(diagnostics_,
+                                        {around.source, {include.keyword.begin, include.file.span.end}});
   ++include_depth_;
   build_items(tree->items, inside);
   --include_depth_;
@@ -60,7 +66,8 @@ void Builder::build_let(const LetNode& let, const Surroundings& around, std::siz
   auto& bindings = evaluator_.bindings();
   const std::size_t known = bindings.find(let.name, around.frame->values);
   if (known != Bindings<NamedValue>::npos && known >= let_base) {
-    diagnostics_.error(place, fmt::format("'{}' is assigned twice", place.text()), "a name keeps its value; take a second name",
+    diagnostics_.error(place, fmt::format("'{}' is assigned twice", place.text()),
+                       "a name keeps its value; take a second name",
                        {{bindings.at(known).place, "first assigned here"}});
     return;
   }
@@ -79,8 +86,9 @@ Value Builder::replaced(const Replacement& replacement, const Value& original, c
   const Value& value = replacement.value;
   const bool fits = value.type == original.type || (value.is_vector() && original.is_vector());
   if (original.is_known() && !fits) {
-    throw Error(ErrorKind::kUsage, fmt::format("--set {}={}: '{}' is {} in the scene, not {}", place.text(), replacement.text,
-                                               place.text(), describe(original.type), describe(value.type)));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("--set {}={}: '{}' is {} in the scene, not {}", place.text(), replacement.text,
+                            place.text(), describe(original.type), describe(value.type)));
   }
   return value;
 }
@@ -93,7 +101,8 @@ void Builder::build_for(const ForNode& loop, const Surroundings& around) {
     if (expression == nullptr) return otherwise;
     const Value value = evaluator_.evaluate(*expression, *around.source, around.frame->values);
     if (value.is_known() && !value.is_number()) {
-      diagnostics_.error({around.source, expression->span}, fmt::format("'for' counts in numbers, found {}", describe(value.type)));
+      diagnostics_.error({around.source, expression->span},
+                         fmt::format("'for' counts in numbers, found {}", describe(value.type)));
     }
     known = known && value.is_number();
     depends_on_time = depends_on_time || value.depends_on_time;
@@ -107,8 +116,9 @@ void Builder::build_for(const ForNode& loop, const Surroundings& around) {
   }
   const double turns = std::floor((to - from) / step + 1e-9) + 1;
   if (!(turns <= static_cast<double>(limits_.steps))) {
-    diagnostics_.error(place, fmt::format("this loop has {:.0f} turns; a scene has at most {} steps", turns, limits_.steps),
-                       "--limit steps=N allows more");
+    diagnostics_.error(
+        place, fmt::format("this loop has {} turns; a scene has at most {} steps", turns, limits_.steps),
+        "--limit steps=N allows more");
     return;
   }
   auto& bindings = evaluator_.bindings();
@@ -140,7 +150,8 @@ void Builder::build_if(const IfNode& choice, const Surroundings& around) {
   if (!spend(1, {around.source, choice.keyword}) || !condition.is_known()) return;
   if (!condition.is_boolean()) {
     diagnostics_.error({around.source, choice.condition->span},
-                       fmt::format("'if' takes true or false, found {}", describe(condition.type)), "if t > 2 { … }");
+                       fmt::format("'if' takes true or false, found {}", describe(condition.type)),
+                       "if t > 2 { … }");
     return;
   }
   auto& bindings = evaluator_.bindings();
@@ -165,11 +176,13 @@ Value Builder::parameter_default(const ParameterNode& parameter, const Surroundi
     known = known && values[i].is_known();
   }
   if (!known || count == 1) return values[0];
-  const bool is_vector = count == 3 && values[0].is_number() && values[1].is_number() && values[2].is_number();
+  const bool is_vector =
+      count == 3 && values[0].is_number() && values[1].is_number() && values[2].is_number();
   if (is_vector) return Value::of_vector({values[0].x(), values[1].x(), values[2].x()});
-  diagnostics_.error({around.source, {parameter.values.front().span.begin, parameter.values.back().span.end}},
-                     fmt::format("the default of a parameter is one value or three numbers, found {} values", count),
-                     "(size 1, at 0 1 0, hat black)");
+  diagnostics_.error(
+      {around.source, {parameter.values.front().span.begin, parameter.values.back().span.end}},
+      fmt::format("the default of a parameter is one value or three numbers, found {} values", count),
+      "(size 1, at 0 1 0, hat black)");
   return {};
 }
 
@@ -215,7 +228,8 @@ void Builder::build_use(const std::shared_ptr<const Definition>& definition, con
                 "a definition that uses itself needs an 'if' that ends it");
   }
   used_definitions_[definition->node] = true;
-  const std::string_view name = block.words.empty() ? std::string_view() : around.source->text(block.words[0]);
+  const std::string_view name =
+      block.words.empty() ? std::string_view() : around.source->text(block.words[0]);
   register_name(definition->row, name, place, around);
   std::vector<Value> arguments = definition->defaults;
   const SceneRecorder::Block recorded(recorder(), definition->row, name);
@@ -231,8 +245,8 @@ void Builder::build_use(const std::shared_ptr<const Definition>& definition, con
   inside.material = context.material_.value_or(around.material);
   inside.depends_on_time = context.depends_on_time();
 
-  // The first use is built where it stands; when the same comes again, it is built once more in its own space, for that
-  // and all later uses. One level of instances: uses inside uses are built out.
+  // The first use is built where it stands; when the same comes again, it is built once more in its own
+  // space, for that and all later uses. One level of instances: uses inside uses are built out.
   if (store_.is_recording()) return build_body(*definition, arguments, inside, place);
   const void* owner = definition->is_top ? static_cast<const void*>(definition->node) : definition.get();
   const std::string key = use_key(owner, arguments, inside.material);
@@ -241,7 +255,8 @@ void Builder::build_use(const std::shared_ptr<const Definition>& definition, con
     const std::uint64_t shapes = shapes_made_, lights = lights_made_, endless = store_.endless_made();
     build_body(*definition, arguments, inside, place);
     UseRecord& done = uses_[key];  // the body's own uses may have moved it
-    done.can_be_shared = shapes_made_ - shapes >= kLeastToShare && lights_made_ == lights && store_.endless_made() == endless;
+    done.can_be_shared =
+        shapes_made_ - shapes >= kLeastToShare && lights_made_ == lights && store_.endless_made() == endless;
     return;
   }
   if (!record.can_be_shared) return build_body(*definition, arguments, inside, place);
@@ -251,8 +266,10 @@ void Builder::build_use(const std::shared_ptr<const Definition>& definition, con
 }
 
 // The body of a definition in its own space, with a tree over it.
-std::shared_ptr<const SharedShapes> Builder::share_body(const Definition& definition, const std::vector<Value>& arguments,
-                                                        Surroundings inside, const std::string& key, const Place& used_at) {
+std::shared_ptr<const SharedShapes> Builder::share_body(const Definition& definition,
+                                                        const std::vector<Value>& arguments,
+                                                        Surroundings inside, const std::string& key,
+                                                        const Place& used_at) {
   // Of what is defined at the top and uses no time every moment finds the same.
   const bool may_be_kept = definition.is_top && !inside.depends_on_time;
   if (may_be_kept) {
@@ -274,8 +291,8 @@ std::shared_ptr<const SharedShapes> Builder::share_body(const Definition& defini
 }
 
 // Runs a definition's statements with its parameters bound, seeing what its text sees.
-void Builder::build_body(const Definition& definition, const std::vector<Value>& arguments, Surroundings inside,
-                         const Place& used_at) {
+void Builder::build_body(const Definition& definition, const std::vector<Value>& arguments,
+                         Surroundings inside, const Place& used_at) {
   const Diagnostics::UsedFrom used_from(diagnostics_, used_at);
   const SceneRecorder::Body recorded(recorder(), &definition, arguments);
   auto& bindings = evaluator_.bindings();

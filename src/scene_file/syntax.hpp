@@ -1,5 +1,5 @@
-// What the parser makes of a text: inert nodes that remember their places. They exist once per source text and
-// are never changed.
+// What the parser makes of a text: inert nodes that remember their places. They exist once per source text
+// and are never changed.
 #pragma once
 
 #include <algorithm>
@@ -64,9 +64,9 @@ enum class ValueKind : std::uint8_t { kNumber, kString, kColor, kWord, kExpressi
 struct ValueNode {
   ValueKind kind = ValueKind::kBad;
   Span span;
-  double number = 0;                       ///< of a kNumber
-  NameId name = 0;                         ///< of a kWord; of a kString that is decoded its text
-  bool is_decoded = false;                 ///< of a kString: the source's text is not as it stands between its quotes
+  double number = 0;        ///< of a kNumber
+  NameId name = 0;          ///< of a kWord; of a kString that is decoded its text
+  bool is_decoded = false;  ///< of a kString: the source's text is not as it stands between its quotes
   const Expression* expression = nullptr;  ///< of a kExpression
 };
 

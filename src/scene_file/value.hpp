@@ -19,10 +19,11 @@ enum class ValueType : std::uint8_t {
 
 struct Value {
   ValueType type = ValueType::kUnknown;
-  bool is_display = false;    ///< a colour as a display shows it (#rrggbb, a name, hsv), untouched by arithmetic
+  bool is_display =
+      false;  ///< a colour as a display shows it (#rrggbb, a name, hsv), untouched by arithmetic
   bool depends_on_time = false;
-  Vector3d vector{0};         ///< x alone of a number; 0 or 1 of a boolean
-  std::string_view text;      ///< of a string; lives as long as the scene's sources
+  Vector3d vector{0};     ///< x alone of a number; 0 or 1 of a boolean
+  std::string_view text;  ///< of a string; lives as long as the scene's sources
 
   static Value number(double x) { return {ValueType::kNumber, false, false, Vector3d(x, 0, 0), {}}; }
   static Value boolean(bool b) { return {ValueType::kBoolean, false, false, Vector3d(b ? 1 : 0, 0, 0), {}}; }

@@ -18,8 +18,8 @@ inline bool is_on_ray(const Ray3f& ray, double t) {
   return rounded > ray.t_min && rounded < ray.t_max;
 }
 
-/// The first of the two values, rounded to float, that is on the ray of lane i; kInfinity where none is. Without
-/// branches, as is everything that is done to a packet.
+/// The first of the two values, rounded to float, that is on the ray of lane i; kInfinity where none is.
+/// Without branches, as is everything that is done to a packet.
 inline float first_on_ray(const RayPacket& rays, int i, double near, double far) {
   const float first = static_cast<float>(near), second = static_cast<float>(far);
   const float second_or_none = ((second > rays.t_min[i]) & (second < rays.t_max[i])) ? second : kInfinity;

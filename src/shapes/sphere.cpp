@@ -60,8 +60,8 @@ class Sphere final : public Shape {
   void find_hits(const RayPacket& rays, HitPacket& hits) const override {
     for (int i = 0; i < RayPacket::kSize; ++i) {
       Span<double> span;
-      const bool crosses =
-          shapes::intersect_ball<false>(Vector3d(rays.origin(i)) - center_, Vector3d(rays.direction(i)), radius_, span);
+      const bool crosses = shapes::intersect_ball<false>(Vector3d(rays.origin(i)) - center_,
+                                                         Vector3d(rays.direction(i)), radius_, span);
       hits.t[i] = crosses ? shapes::first_on_ray(rays, i, span.near, span.far) : kInfinity;
     }
     shapes::clear_parameters(hits);

@@ -161,7 +161,7 @@ SLIPS = [
     ("file of no name", "include «\"\"»", []),
     # --- characters ---
     ("letter beyond ASCII", "sphere { «größe» 2 }", ["größe"]),
-    ("no-break space", "sphere {«\u00a0radius» 1 }", []),
+    ("no-break space", "sphere {«\u00a0»radius 1 }", []),
     ("typographic quotation marks", "include «“parts.txt”»\nsphere { }", ["“"]),
     ("typographic minus", "sphere { center «−1» 0 0 }", ["−"]),
     ("escape character", "sphere { «\x1b» radius 1 }", ["0x1b"]),

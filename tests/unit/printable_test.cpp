@@ -13,14 +13,15 @@ const std::string kReplaced = "\xEF\xBF\xBD";
 }  // namespace
 
 TEST_CASE("printable keeps letters of every script, tabs and line feeds") {
-  for (const std::string text : {"", "abc", "größe", "日本 𝄞", "a\tb", "a\nb\n"}) REQUIRE(printable(text) == text);
+  for (const std::string text : {"", "abc", "größe", "日本 𝄞", "a\tb", "a\nb\n"})
+    REQUIRE(printable(text) == text);
 }
 
 TEST_CASE("printable replaces what steers a terminal") {
   REQUIRE(printable("a\x1b[31mb") == "a" + kReplaced + "[31mb");
   REQUIRE(printable("\r\x07\x7f") == kReplaced + kReplaced + kReplaced);
-  REQUIRE(printable("\xC2\x9B") == kReplaced);       // CSI in C1
-  REQUIRE(printable("\xC2\xA0") == "\xC2\xA0");      // a blank, and no control
+  REQUIRE(printable("\xC2\x9B") == kReplaced);   // CSI in C1
+  REQUIRE(printable("\xC2\xA0") == "\xC2\xA0");  // a blank, and no control
   REQUIRE(printable(std::string(1, '\0')) == kReplaced);
 }
 

@@ -151,13 +151,16 @@ TEST_CASE("A scene with pieces moved at random is a scene or a mistake with a pl
 
 TEST_CASE("Words of the language in any order are a scene or a mistake with a place") {
   constexpr std::string_view kWords[] = {
-      "sphere", "cube", "group", "light", "spot", "material", "camera", "image", "include", "raytracer",
-      "radius", "center", "size", "color", "rotate", "matrix", "red", "chrome", "true", "nan", "-inf",
-      "1e999", "1e-999", "0", "-1", "2", "3.5", "1e30", "#fff", "#12", "\"a\"", "\"", "{", "{", "}", "}",
-      "(", ")", ",", "=", "/*", "*/", "//", "\n", "\r", "\xFF", "\xC3\xA4", "\x1B[31m", ".", "-", "+",
-      "5cm", "..", "#", "quad", "width", "height", "a", "triangle", "open", "pivot", "scale", "plane",
-      "normal", "fov", "t", "let", "for", "from", "to", "step", "if", "define", "and", "not", "?", ":", "^",
-      "==", "sin", "random", "<", "x", "(1,2)", "(1,2,3)", "hsv", "%", "i"};
+      "sphere",    "cube",     "group",    "light",   "spot",     "material", "camera", "image", "include",
+      "raytracer", "radius",   "center",   "size",    "color",    "rotate",   "matrix", "red",   "chrome",
+      "true",      "nan",      "-inf",     "1e999",   "1e-999",   "0",        "-1",     "2",     "3.5",
+      "1e30",      "#fff",     "#12",      "\"a\"",   "\"",       "{",        "{",      "}",     "}",
+      "(",         ")",        ",",        "=",       "/*",       "*/",       "//",     "\n",    "\r",
+      "\xFF",      "\xC3\xA4", "\x1B[31m", ".",       "-",        "+",        "5cm",    "..",    "#",
+      "quad",      "width",    "height",   "a",       "triangle", "open",     "pivot",  "scale", "plane",
+      "normal",    "fov",      "t",        "let",     "for",      "from",     "to",     "step",  "if",
+      "define",    "and",      "not",      "?",       ":",        "^",        "==",     "sin",   "random",
+      "<",         "x",        "(1,2)",    "(1,2,3)", "hsv",      "%",        "i"};
   Dice dice;
   for (int i = 0; i < 4000; ++i) {
     std::string text;
@@ -170,9 +173,8 @@ TEST_CASE("Words of the language in any order are a scene or a mistake with a pl
 }
 
 TEST_CASE("What is nested far too deep is told, not followed") {
-  for (const std::string_view opening :
-       {"group {", "sphere { material {", "/*", "{", "(", "if true {", "for i from 0 to 1 {", "define a () {",
-        "let x = ("}) {
+  for (const std::string_view opening : {"group {", "sphere { material {", "/*", "{", "(", "if true {",
+                                         "for i from 0 to 1 {", "define a () {", "let x = ("}) {
     std::string text;
     for (int i = 0; i < 10000; ++i) text += opening;
     require_sound(text);

@@ -104,9 +104,9 @@ TEST_CASE("Of a long line only the part around the offset is given, in whole cha
   const Source text = source("first\n0123456789ßabcdefghi\nlast");
   const auto at = [&](const char* word) { return static_cast<std::uint32_t>(text.text().find(word)); };
   REQUIRE(text.line_at(at("5"), 3) == "234567");
-  REQUIRE(text.line_at(at("9"), 2) == "789");            // half of ß is left out
-  REQUIRE(text.line_at(at("a"), 1) == "a");              // so is its other half
-  REQUIRE(text.line_at(at("1"), 4) == "01234");          // the line before is none of its own
+  REQUIRE(text.line_at(at("9"), 2) == "789");    // half of ß is left out
+  REQUIRE(text.line_at(at("a"), 1) == "a");      // so is its other half
+  REQUIRE(text.line_at(at("1"), 4) == "01234");  // the line before is none of its own
   REQUIRE(text.line_at(at("hi"), 4) == "defghi");
   REQUIRE(text.line_at(at("5"), 100) == "0123456789ßabcdefghi");
   REQUIRE(text.line_at(static_cast<std::uint32_t>(text.text().size()), 2) == "st");

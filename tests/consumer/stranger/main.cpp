@@ -1,4 +1,5 @@
-// A red ball, lit from where it is looked at; written as a picture by a program that knows only the installed library.
+// A red ball, lit from where it is looked at; written as a picture by a program that knows only the installed
+// library.
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -32,7 +33,8 @@ int main(int, char** arguments) try {
   const rt::Image picture = rt::render([&](double) { return scene; }, 0, settings);
   rt::write_file(arguments[1], rt::encode_png(picture));
 
-  // The middle ray meets the ball two units in front of the light: colour * 255 * 2 / 2^2. The corner misses it.
+  // The middle ray meets the ball two units in front of the light: colour * 255 * 2 / 2^2. The corner misses
+  // it.
   const bool is_right = is_near(picture.at(4, 4), {102, 51, 25.5f}) && is_near(picture.at(0, 0), {0, 0, 255});
   std::puts(is_right ? "the picture is right" : "the picture is wrong");
   return is_right ? 0 : 1;
