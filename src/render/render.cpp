@@ -43,7 +43,8 @@ std::vector<glm::ivec2> pixels_in_blocks(const Tile& tile) {
   return pixels;
 }
 
-// A part of the time that the shutter is open, of which its middle stands for the whole, and the samples that fall in it.
+// A part of the time that the shutter is open, of which its middle stands for the whole, and the samples that
+// fall in it.
 struct Slice {
   double time;
   int first_sample, end_sample;

@@ -11,14 +11,16 @@
 namespace raytracer {
 namespace {
 
-// How far m can stretch a length, at most: its spectral norm is the root of that of mᵀm, which no sum of a row of
-// magnitudes is below. Exact where the axes stay at right angles.
+glm::dmat3 magnitudes(const glm::dmat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
+
+// How far m can stretch a length, at most: its spectral norm is the root of that of mᵀm, which no sum of a
+// row of magnitudes is below. Exact where the axes stay at right angles.
 double stretch(const glm::dmat3& m) {
   const glm::dmat3 square = glm::transpose(m) * m;
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vector3d magnitudes = glm::abs(square[i]);
-    largest = std::max(largest, magnitudes.x + magnitudes.y + magnitudes.z);
+    const Vector3d row = glm::abs(square[i]);
+    largest = std::max(largest, row.x + row.y + row.z);
   }
   return std::sqrt(largest);
 }
@@ -35,7 +37,8 @@ SharedShapes::SharedShapes(std::vector<std::unique_ptr<Shape>> shapes, std::vect
     if (index >= materials_.size()) throw Error(ErrorKind::kUsage, "a shape's material does not exist");
   }
   for (const auto& shape : shapes_) bounds_.extend(shape->bounds());
-  if (!bounds_.is_empty() && !bounds_.is_finite()) throw Error(ErrorKind::kUsage, "an endless shape can't be shared");
+  if (!bounds_.is_empty() && !bounds_.is_finite())
+    throw Error(ErrorKind::kUsage, "an endless shape can't be shared");
   accelerator_ = std::make_unique<Accelerator>(shapes_);
 }
 
@@ -48,8 +51,7 @@ Box3f Instance::bounds(const Box3f& own) const {
   const Vector3d half = 0.5 * (Vector3d(own.upper) - Vector3d(own.lower));
   const glm::dmat3 m(linear);
   const Vector3d center = m * middle + Vector3d(translation);
-  const glm::dmat3 size = {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
-  const Vector3d reach = size * half;
+  const Vector3d reach = magnitudes(m) * half;
   for (int i = 0; i < 3; ++i) {
     box.lower[i] = float_below(center[i] - reach[i]);
     box.upper[i] = float_above(center[i] + reach[i]);
@@ -75,15 +77,15 @@ SurfacePoint Scene::instance_surface_at(const Ray3f& ray, const Hit& hit) const 
   const glm::dmat3 normals = glm::transpose(to_own);
   point.normal = Vector3f(glm::normalize(normals * Vector3d(own.normal)));
   point.shading_normal = Vector3f(glm::normalize(normals * Vector3d(own.shading_normal)));
-  // Besides the shape's own error: this rounding, and that of a further ray whose origin Embree takes into the shapes' own
-  // space in single precision, by a matrix that it has inverted in single precision.
-  const double own_reach = glm::length(to_own[0]) * std::abs(position.x) + glm::length(to_own[1]) * std::abs(position.y) +
-                           glm::length(to_own[2]) * std::abs(position.z) + glm::length(to_own * translation);
-  const double there_and_back = stretch(to_world) * own_reach;
-  constexpr double kRoundings = 8;
-  point.position_error =
-      float_above(stretch(to_world) * own.position_error +
-                  kRoundings * kFloatRounding * (there_and_back + glm::length(position) + glm::length(translation)));
+  // Besides the shape's own error: what a further ray loses whose origin Embree takes into the shapes' own
+  // space in single precision (a sum of three products and a translation that is such a sum itself) by a
+  // matrix that it has inverted in single precision; and twice the rounding of a position in the world.
+  constexpr double kSums = 3, kInverse = 8;
+  const Vector3d lost =
+      kSums * (glm::abs(position) + glm::abs(translation)) + kInverse * glm::abs(position - translation);
+  const Vector3d lost_here = magnitudes(to_world) * (magnitudes(to_own) * lost);
+  point.position_error = float_above(stretch(to_world) * own.position_error +
+                                     kFloatRounding * (glm::length(lost_here) + 2 * glm::length(position)));
   return point;
 }
 

@@ -16,7 +16,8 @@ constexpr const char* kScene = R"({"raytracer": 1, "blocks": [
   {"kind": "material", "name": "red", "color": {"display": [1, 0.25, 1e-3]}},
   {"kind": "define", "name": "pair", "children": [{"kind": "sphere"}, {"kind": "cube", "size": 0.5}]},
   {"kind": "pair", "transforms": [{"rotate": [0, 30, 0]}, {"scale": -1}], "material": "red"},
-  {"kind": "group", "material": {"color": "#ff8000", "shininess": 0.5}, "children": [{"kind": "cylinder", "open": true}]}
+  {"kind": "group", "material": {"color": "#ff8000", "shininess": 0.5},
+   "children": [{"kind": "cylinder", "open": true}]}
 ]})";
 
 LoadedScene load(const std::string& text) { return load_scene_text(text, "scene.json"); }
