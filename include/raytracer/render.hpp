@@ -1,6 +1,7 @@
 // From a scene to a picture.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -18,6 +19,13 @@ struct RenderSettings {
   int threads = 0;                ///< 0: all the machine has
   std::uint32_t seed = 0;         ///< another seed, other sample points
   double shutter = 0;             ///< seconds that it is open, which blurs what moves; 0 shows one moment
+
+  /// Into how many parts the time that the shutter is open is cut, the middle of each standing for the whole.
+  int slices() const { return shutter > 0 ? std::min(samples, 64) : 1; }
+  /// That middle, in seconds, for the picture that begins at `time`.
+  double slice_time(double time, int slice) const {
+    return shutter > 0 ? time + shutter * (slice + 0.5) / slices() : time;
+  }
 };
 
 /// The scene at a time in seconds. The render asks for one time after another and keeps at most one alive.

@@ -50,17 +50,15 @@ struct Slice {
   int first_sample, end_sample;
 };
 
-// With a closed shutter one slice, the moment itself. Sample k belongs to slice floor(k n / samples) of n.
+// Sample k belongs to slice floor(k n / samples) of n.
 std::vector<Slice> cut_into_slices(double time, const RenderSettings& settings) {
-  constexpr int kMostSlices = 64;
-  if (!(settings.shutter > 0)) return {{time, 0, settings.samples}};
-  const int count = std::min(settings.samples, kMostSlices);
+  const int count = settings.slices();
   const auto first_sample = [&](int slice) {
     return static_cast<int>((std::int64_t{slice} * settings.samples + count - 1) / count);
   };
   std::vector<Slice> slices;
   for (int i = 0; i < count; ++i) {
-    slices.push_back({time + settings.shutter * (i + 0.5) / count, first_sample(i), first_sample(i + 1)});
+    slices.push_back({settings.slice_time(time, i), first_sample(i), first_sample(i + 1)});
   }
   return slices;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/hash.hpp"
 #include "raytracer/error.hpp"
 #include "raytracer/scene_file.hpp"
 #include "scene_file/builder.hpp"
@@ -54,7 +55,9 @@ class ScenesOverTime {
 
   SceneMoment moment(double time) {
     make_latest(time, true);
-    return *latest_.moment;
+    SceneMoment moment = *latest_.moment;
+    if (moment.settings.shutter > 0) moment.hash = hash_of_slices(time, moment);
+    return moment;
   }
 
   std::string json(double time) const {
@@ -87,6 +90,17 @@ class ScenesOverTime {
     if (is_same && (with_moment ? latest_.moment.has_value() : has_scene)) return;
     latest_ = {};
     latest_ = evaluate(time, with_moment);
+  }
+
+  // A picture with an open shutter shows the moments of all its slices.
+  SceneHash hash_of_slices(double time, const SceneMoment& moment) const {
+    Hasher all;
+    for (const std::uint64_t word : moment.hash) all.add(word);
+    for (int i = 0; i < moment.settings.slices(); ++i) {
+      const Evaluated slice = evaluate(moment.settings.slice_time(time, i), true);
+      for (const std::uint64_t word : slice.moment->hash) all.add(word);
+    }
+    return all.value();
   }
 
   Moment moment_of(double time) const {

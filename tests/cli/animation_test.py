@@ -356,6 +356,17 @@ class Resume(InAFolder):
         self.render("-o", "f01.png")
         self.assertEqual(self.render_again("--frames", "1"), [1])
 
+    def test_a_blurred_frame_is_made_anew_when_only_its_motion_changed(self):
+        scene = ("image {{ size 24 16 }} render {{ samples 8 }} animation {{ duration 1 fps 4 }}\n"
+                 "camera {{ position 0 0 5 shutter 1 }} light {{ position 0 3 5 }}\n"
+                 "sphere {{ center ({} * t) 0 0 radius 0.5 }}\n")
+        self.write(scene.format(2))
+        self.render("-o", "f#.png", "--frames", "1")
+        first = self.read("f1.png")
+        self.write(scene.format(6))
+        self.render("-o", "f#.png", "--frames", "1", "--resume")
+        self.assertNotEqual(self.read("f1.png"), first)
+
     def test_a_single_frame(self):
         self.render("-o", "a.png", "--frames", "3")
         os.utime(self.folder / "a.png", ns=(0, 0))
