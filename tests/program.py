@@ -2,7 +2,9 @@
 
 import os
 import pathlib
+import pty
 import subprocess
+import unittest
 
 PROGRAM = os.environ.get("RAYTRACER", str(pathlib.Path(__file__).parents[1] / "raytracer"))
 ROOT = pathlib.Path(__file__).parents[1]
@@ -14,6 +16,14 @@ def run(*arguments, stdin=b"", cwd=None, env=None, timeout=120, **options):
     return subprocess.run(
         [PROGRAM, *map(str, arguments)], input=stdin, capture_output=True, cwd=cwd, env=environment,
         timeout=timeout, check=False, **options)
+
+
+def open_terminal():
+    """The two ends of a pseudo-terminal; skips the test where there is none to be had (a bare chroot)."""
+    try:
+        return pty.openpty()
+    except OSError as error:
+        raise unittest.SkipTest(f"no pseudo-terminal: {error}") from None
 
 
 def read_pfm(data):

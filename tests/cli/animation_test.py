@@ -3,7 +3,6 @@
 import fcntl
 import os
 import pathlib
-import pty
 import re
 import shutil
 import signal
@@ -551,7 +550,7 @@ sphere { center 900 0 0 }
 
 class Terminal(InAFolder):
     def test_the_bar_tells_the_frame(self):
-        leader, follower = pty.openpty()
+        leader, follower = program.open_terminal()
         fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
         process = subprocess.Popen([program.PROGRAM, "scene.txt", "-o", "f##.png", "--frames", "7,8", "--size", "900x600",
                                     "--samples", "16"], cwd=self.folder, stderr=follower, stdin=subprocess.DEVNULL)

@@ -3,7 +3,6 @@
 import fcntl
 import os
 import pathlib
-import pty
 import re
 import shutil
 import struct
@@ -306,7 +305,7 @@ class Terminal(unittest.TestCase):
     """What a person sees: standard error is a pseudo-terminal."""
 
     def on_terminal(self, *arguments, columns=80, **options):
-        leader, follower = pty.openpty()
+        leader, follower = program.open_terminal()
         fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "scene.txt").write_bytes(SCENE)
@@ -356,7 +355,7 @@ class Terminal(unittest.TestCase):
         self.assertEqual(self.on_terminal("check", "scene.txt"), (0, ""))
 
     def test_a_picture_is_not_written_onto_a_terminal(self):
-        leader, follower = pty.openpty()
+        leader, follower = program.open_terminal()
         try:
             code, seen = self.on_terminal("scene.txt", "-o", "-", stdout=follower)
         finally:

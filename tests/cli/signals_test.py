@@ -2,7 +2,6 @@
 
 import os
 import pathlib
-import pty
 import signal
 import subprocess
 import tempfile
@@ -17,7 +16,7 @@ CLEAR_LINE = b"\r\x1b[K"
 class Signals(unittest.TestCase):
     def interrupted(self, number, wait_for, *arguments, **options):
         """(exit code, what stood on the terminal) of a rendering of hours that gets a signal once `wait_for` is seen."""
-        leader, follower = pty.openpty()
+        leader, follower = program.open_terminal()
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "scene.txt").write_bytes(SCENE)
             process = subprocess.Popen([program.PROGRAM, "scene.txt", *arguments], cwd=folder, stderr=follower,
