@@ -250,7 +250,7 @@ class Mistakes(unittest.TestCase):
 def limited():
     """For preexec_fn: a second of processor time, little memory."""
     resource.setrlimit(resource.RLIMIT_CPU, (1, 2))
-    resource.setrlimit(resource.RLIMIT_AS, (400 << 20, 400 << 20))
+    program.limit_memory(400 << 20)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 

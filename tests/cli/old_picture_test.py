@@ -87,7 +87,7 @@ class OldPicture(unittest.TestCase):
 
     def test_survives_too_little_memory(self):
         def limit():
-            resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+            program.limit_memory(4 << 30)
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         done = program.run("scene.txt", "--size", "65536x65536", cwd=self.folder, preexec_fn=limit)
         self.assertEqual(done.returncode, 3, done)

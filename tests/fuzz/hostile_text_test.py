@@ -17,7 +17,7 @@ def limits(seconds, memory):
     """For preexec_fn: beyond its processor time the program is killed, beyond its memory it gets none."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
-        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+        program.limit_memory(memory)
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     return limit
 
