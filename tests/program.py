@@ -33,6 +33,18 @@ def open_terminal():
         raise unittest.SkipTest(f"no pseudo-terminal: {error}") from None
 
 
+def read_terminal(leader):
+    """All that is written to a pseudo-terminal until its other end is closed; closes this one."""
+    seen = b""
+    try:
+        while part := os.read(leader, 65536):
+            seen += part
+    except OSError:  # how Linux says that the other side is closed
+        pass
+    os.close(leader)
+    return seen
+
+
 def read_pfm(data):
     """(width, height, rows from the top of (r, g, b) tuples) of a PFM file's bytes."""
     import struct

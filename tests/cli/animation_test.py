@@ -555,16 +555,7 @@ class Terminal(InAFolder):
         process = subprocess.Popen([program.PROGRAM, "scene.txt", "-o", "f##.png", "--frames", "7,8", "--size", "900x600",
                                     "--samples", "16"], cwd=self.folder, stderr=follower, stdin=subprocess.DEVNULL)
         os.close(follower)
-        seen = b""
-        while True:
-            try:
-                part = os.read(leader, 65536)
-            except OSError:  # how Linux says that the other side is closed
-                break
-            if not part:
-                break
-            seen += part
-        os.close(leader)
+        seen = program.read_terminal(leader)
         self.assertEqual(process.wait(), 0)
         bars = [part for part in seen.decode().split("\r") if "left" in part]
         self.assertGreater(len(bars), 0, seen)

@@ -312,16 +312,7 @@ class Terminal(unittest.TestCase):
             process = subprocess.Popen([program.PROGRAM, *arguments], cwd=folder, stderr=follower,
                                        **{"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, **options})
             os.close(follower)
-            seen = b""
-            while True:
-                try:
-                    part = os.read(leader, 65536)
-                except OSError:  # how Linux says that the other side is closed
-                    break
-                if not part:
-                    break
-                seen += part
-            os.close(leader)
+            seen = program.read_terminal(leader)
             return process.wait(), seen.decode()
 
     def test_a_bar_with_the_time_left_then_one_line_of_summary(self):
