@@ -21,6 +21,8 @@ build   | -         | libembree-dev | embree-devel | embree    | embree    | fin
 build   | -         | libtbb-dev    | tbb-devel    | onetbb    | tbb       | works on all processor cores
 build   | -         | libpng-dev    | libpng-devel | libpng    | libpng    | writes PNG
 build   | -         | zlib1g-dev    | zlib-devel   | zlib      | zlib      | compresses PNG
+build   | -         | libopenexr-dev | openexr-devel | openexr | openexr | reads and writes EXR
+build   | -         | libjpeg-dev   | libjpeg-turbo-devel | libjpeg-turbo | jpeg-turbo | reads JPEG
 build   | -         | libglm-dev    | glm-devel    | glm       | glm       | vectors and matrices
 build   | -         | libcli11-dev  | cli11-devel  | cli11     | cli11     | command line options
 build   | -         | libfmt-dev    | fmt-devel    | fmt       | fmt       | text, whatever the locale

@@ -31,10 +31,28 @@ struct Image {
   }
 };
 
+/// The curve that brings bright light into the range of a display.
+enum class Tone : std::uint8_t { kNone, kFilmic, kAgx, kAces };
+
+/// How a picture of linear values becomes one of display values.
+struct Development {
+  bool is_linear = false;  ///< false: the values are display values already (classic), and stay as they are
+  float exposure = 0;      ///< stops
+  Tone tone = Tone::kNone;
+  Color3f white{1};  ///< linear Rec.709 colour of the light that shall look white
+};
+
+/// The picture as a display wants it: 255 is white. Exposure, white balance, tone curve, the sRGB curve, and
+/// noise of less than a step that keeps even slopes from banding, the same for the same picture.
+Image develop(Image image, const Development& development);
+
 /// A PNG of 8-bit RGB: each value clamped to 0..255 and rounded, a half upwards; NaN is 0. The same image
 /// gives the same bytes for any number of threads. Throws Error for an image without pixels or with buffers
 /// of the wrong size (kUsage), for too little memory and for what the format can't hold (kFile).
 std::vector<std::uint8_t> encode_png(const Image& image);
+
+/// An OpenEXR of 32-bit floats, value / 255, unclamped, linear Rec.709. Throws as encode_png does.
+std::vector<std::uint8_t> encode_exr(const Image& image);
 
 /// A little-endian colour PFM of value / 255, unclamped, bottom row first
 /// (http://netpbm.sourceforge.net/doc/pfm.html). Throws as encode_png does.

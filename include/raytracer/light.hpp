@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "raytracer/vector3f.hpp"
 
@@ -25,6 +26,23 @@ struct Light {
   Color3f lambda{255};    ///< intensity times colour, in the 0..255 units of the buffers
   float cos_inner = 1;    ///< spot: full strength inside the cone of this cosine …
   float cos_outer = -1;   ///< … and none outside of this one
+};
+
+/// Light from infinitely far away, all around. Immutable.
+class Environment {
+ public:
+  virtual ~Environment() = default;
+
+  /// What arrives from `direction` (unit length, world space, away from the scene); 1 is white.
+  virtual Color3f radiance(const Vector3f& direction) const = 0;
+  /// Chooses a direction from which much arrives, with its density per steradian; false: nothing shines.
+  virtual bool sample(const Vector2f& u, Vector3f& direction, float& pdf) const = 0;
+  /// The density per steradian with which sample() chooses `direction`.
+  virtual float pdf(const Vector3f& direction) const = 0;
+  /// Whether it is the same in all directions, so that choosing a direction by it is a waste.
+  virtual bool is_constant() const { return false; }
+  /// The mean radiance over all directions.
+  virtual Color3f mean() const = 0;
 };
 
 }  // namespace raytracer

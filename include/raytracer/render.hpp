@@ -11,14 +11,36 @@
 
 namespace raytracer {
 
+/// How light is computed.
+enum class Method : std::uint8_t {
+  kClassic,  ///< the paper's recursion
+  kPath,     ///< unbiased path tracing
+};
+
+/// What chooses the directions in which light is looked for, `path` alone.
+enum class Sampling : std::uint8_t {
+  kBoth,       ///< the lights and the materials, weighted against each other
+  kLights,     ///< the lights alone, where they can be chosen
+  kMaterials,  ///< the materials alone, where they can meet a light
+};
+
+/// More bounces than any path takes.
+inline constexpr int kUnlimitedBounces = 1 << 30;
+
 /// How one picture is made of a scene.
 struct RenderSettings {
   int width = 960, height = 540;  ///< pixels
-  int samples = 1;                ///< rays per pixel; one goes through the pixel's centre
-  int bounces = 8;                ///< reflections followed, black after
-  int threads = 0;                ///< 0: all the machine has
-  std::uint32_t seed = 0;         ///< another seed, other sample points
-  double shutter = 0;             ///< seconds that it is open, which blurs what moves; 0 shows one moment
+  Method method = Method::kClassic;
+  int samples = 1;  ///< rays per pixel; one goes through the pixel's centre
+  int bounces = 8;  ///< classic: reflections and refractions followed, black after; path: scatterings, 0
+                    ///< shows only what shines, 1 direct light
+  Sampling sampling = Sampling::kBoth;
+  float clamp_indirect =
+      0;            ///< path: the most that one path may add after its first bounce, 1 is white; 0: no limit
+  int threads = 0;  ///< 0: all the machine has
+  std::uint32_t seed = 0;   ///< another seed, other sample points
+  double shutter = 0;       ///< seconds that it is open, which blurs what moves; 0 shows one moment
+  Development development;  ///< of the picture, afterwards; render() itself does not use it
 
   /// Into how many parts the time that the shutter is open is cut, the middle of each standing for the whole.
   int slices() const { return shutter > 0 ? std::min(samples, 64) : 1; }

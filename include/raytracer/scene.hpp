@@ -69,8 +69,10 @@ struct SceneDescription {
   std::vector<Instance> instances;
   std::vector<Light> lights;
   Camera camera;
-  Color3f background{0};  ///< what a ray sees that hits nothing; 1 is white
-  Color3f ambient{0};     ///< light from everywhere on the diffuse share; 1 shows a surface in its own colour
+  Color3f background{0};                   ///< what a ray sees that hits nothing; 1 is white
+  std::shared_ptr<const Environment> sky;  ///< in place of the background; null: none
+  bool is_sky_visible = true;              ///< to the camera; where it is not, the camera sees the background
+  Color3f ambient{0};  ///< light from everywhere on the diffuse share; 1 shows a surface in its own colour
   std::optional<float> epsilon;  ///< the paper's constant offset along the normal; without it the offset
                                  ///< follows the rounding error at the point
 };
@@ -102,6 +104,10 @@ class Scene {
     if (hit.instance != kNoInstance) return instance_surface_at(ray, hit);
     return description_.shapes[hit.shape]->surface_at(ray, hit);
   }
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const {
+    if (hit.instance != kNoInstance) return instance_detail_at(ray, hit);
+    return description_.shapes[hit.shape]->detail_at(ray, hit);
+  }
   const Material& material_of(const Hit& hit) const {
     if (hit.instance == kNoInstance) return description_.materials[description_.material_of[hit.shape]];
     return description_.shared[description_.instances[hit.instance].shared]->material_of(hit.shape);
@@ -111,6 +117,7 @@ class Scene {
 
  private:
   SurfacePoint instance_surface_at(const Ray3f& ray, const Hit& hit) const;
+  SurfaceDetail instance_detail_at(const Ray3f& ray, const Hit& hit) const;
 
   SceneDescription description_;
   std::unique_ptr<Accelerator> accelerator_;

@@ -31,6 +31,30 @@ struct SurfacePoint {
   Vector2f uv{0};
 };
 
+/// What only textures, brushed metals and coloured meshes need to know of a point; world space.
+struct SurfaceDetail {
+  Vector2f uv{0};
+  Vector3f along_u{0}, along_v{0};  ///< how the position changes with u and v; 0 where that has no meaning
+  Color3f color{1};                 ///< of a mesh's vertices
+};
+
+/// What is known of a part of a shape that may shine: enough to tell how much it may matter somewhere.
+struct PartExtent {
+  Box3f bounds;
+  float area = 0;
+  Vector3f axis{0, 1, 0};  ///< all normals of the part are within the angle of cos_spread around it
+  float cos_spread = -1;   ///< -1: they go all ways
+};
+
+/// A point on a part of a shape, chosen as seen from somewhere.
+struct ShapeSample {
+  Vector3f position{0};
+  float position_error = 0;  ///< as SurfacePoint has it
+  Vector3f normal{0, 1, 0};  ///< geometric, unit length
+  float pdf = 0;             ///< of the choice, per steradian as seen from there
+};
+
+class TriangleMesh;
 struct RayPacket;
 struct HitPacket;
 
@@ -53,6 +77,25 @@ class Shape {
 
   /// The full surface at a hit that is_hit() returned for this ray.
   virtual SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const = 0;
+
+  /// Likewise what textures need. By default: the surface's uv and nothing else.
+  virtual SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const;
+
+  /// The shape as native triangles for the accelerator; null: it is asked by is_hit().
+  virtual const TriangleMesh* as_mesh() const { return nullptr; }
+
+  // --- for shapes that shine -------------------------------------------------------------------------------
+
+  /// How many parts it is chosen from; the part of a hit is its `primitive`. 0: it can't shine (endless).
+  virtual std::uint32_t part_count() const { return 0; }
+  virtual PartExtent part_extent(std::uint32_t part) const;
+  /// Chooses a point of the part as seen from `from`; false where none can be seen from there at all (a flat
+  /// part from within its plane). Both sides count.
+  virtual bool sample_part(std::uint32_t part, const Vector3f& from, const Vector2f& u,
+                           ShapeSample& sample) const;
+  /// The density per steradian with which sample_part() from `from` chooses the direction of `point`, which
+  /// lies on the part.
+  virtual float part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const;
 };
 
 }  // namespace raytracer

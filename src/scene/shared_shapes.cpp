@@ -59,6 +59,29 @@ Box3f Instance::bounds(const Box3f& own) const {
   return box;
 }
 
+namespace {
+
+// The ray in an instance's own space; t means the same there.
+Ray3f own_ray_of(const Ray3f& ray, const glm::dmat3& to_own, const Vector3d& translation) {
+  Ray3f own = ray;
+  own.origin = Vector3f(to_own * (Vector3d(ray.origin) - translation));
+  own.direction = Vector3f(to_own * Vector3d(ray.direction));
+  return own;
+}
+
+}  // namespace
+
+SurfaceDetail Scene::instance_detail_at(const Ray3f& ray, const Hit& hit) const {
+  const Instance& instance = description_.instances[hit.instance];
+  const Shape& shape = description_.shared[instance.shared]->shape(hit.shape);
+  if (instance.is_identity()) return shape.detail_at(ray, hit);
+  const glm::dmat3 to_own = glm::inverse(glm::dmat3(instance.linear));
+  SurfaceDetail detail = shape.detail_at(own_ray_of(ray, to_own, Vector3d(instance.translation)), hit);
+  detail.along_u = instance.linear * detail.along_u;
+  detail.along_v = instance.linear * detail.along_v;
+  return detail;
+}
+
 SurfacePoint Scene::instance_surface_at(const Ray3f& ray, const Hit& hit) const {
   const Instance& instance = description_.instances[hit.instance];
   const Shape& shape = description_.shared[instance.shared]->shape(hit.shape);
@@ -66,9 +89,7 @@ SurfacePoint Scene::instance_surface_at(const Ray3f& ray, const Hit& hit) const 
   const glm::dmat3 to_world(instance.linear);
   const glm::dmat3 to_own = glm::inverse(to_world);
   const Vector3d translation(instance.translation);
-  Ray3f own_ray = ray;
-  own_ray.origin = Vector3f(to_own * (Vector3d(ray.origin) - translation));
-  own_ray.direction = Vector3f(to_own * Vector3d(ray.direction));
+  const Ray3f own_ray = own_ray_of(ray, to_own, translation);
   const SurfacePoint own = shape.surface_at(own_ray, hit);
 
   SurfacePoint point = own;

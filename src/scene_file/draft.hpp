@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "raytracer/render.hpp"
 #include "raytracer/scene.hpp"
 #include "scene_file/schema.hpp"
 #include "scene_file/source.hpp"
@@ -22,7 +23,6 @@ struct CameraDraft {
   double shutter = 0;                                       ///< the share of a frame's time that it is open
 };
 
-enum class Method : std::uint8_t { kClassic };
 
 struct RenderDraft {
   Method method = Method::kClassic;

@@ -24,7 +24,7 @@ FLOORS = {
 PUBLIC_FLOORS = {
     "vector3f.hpp": 0, "error.hpp": 0,
     "image.hpp": 1,
-    "shape.hpp": 2, "shapes.hpp": 2, "material.hpp": 2,
+    "shape.hpp": 2, "shapes.hpp": 2, "texture.hpp": 2, "material.hpp": 2,
     "light.hpp": 3, "camera.hpp": 3,
     "scene.hpp": 4,
     "render.hpp": 6, "scene_file.hpp": 6,
@@ -39,6 +39,8 @@ LIBRARIES = {
     "oneTBB": (r"(oneapi/)?tbb[/.]", {"src/core/parallel.cpp"}),
     "libpng": (r"png\.h|libpng", {"src/image/png.cpp"}),
     "zlib": (r"z(lib|conf)\.h", {"src/image/zlib_pieces.cpp"}),
+    "OpenEXR": (r"(OpenEXR/)?(Imf|Imath|Iex|half)", {"src/image/exr.cpp"}),
+    "libjpeg": (r"j(peglib|error|config)\.h", {"src/image/jpeg.cpp"}),
     "CLI11": (r"CLI/", {"src/cli/options.cpp"}),
 }
 # May be included anywhere in src; GLM in the public headers as well.

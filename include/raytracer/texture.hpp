@@ -1,0 +1,31 @@
+// What a material's colours and numbers follow from where they are not the same everywhere.
+#pragma once
+
+#include <memory>
+
+#include "raytracer/vector3f.hpp"
+
+namespace raytracer {
+
+/// Where a texture is asked, and over how much of the surface it may average.
+struct TexturePoint {
+  Vector2f uv{0};
+  Vector3f position{0};         ///< world space
+  Vector3f normal{0, 1, 0};     ///< world space, unit length, the shading normal
+  Vector2f uv_dx{0}, uv_dy{0};  ///< how uv changes to the next sample to the right and below; 0: a point
+  Vector3f position_dx{0}, position_dy{0};  ///< likewise the position, world space
+};
+
+/// A function over surfaces. Immutable; any number of threads may ask it at once.
+class Texture {
+ public:
+  virtual ~Texture() = default;
+
+  /// The average over the point's footprint, as good as can be had. A colour is linear where the scene's
+  /// method is `path`, a display value in `classic`; a texture for a number puts it into every channel.
+  virtual Color3f at(const TexturePoint& point) const = 0;
+};
+
+using TexturePointer = std::shared_ptr<const Texture>;
+
+}  // namespace raytracer
