@@ -6,6 +6,7 @@
 #include "core/suggest.hpp"
 #include "scene_file/arguments.hpp"
 #include "scene_file/builder.hpp"
+#include "scene_file/colors.hpp"
 #include "scene_file/item_cutter.hpp"
 #include "scene_file/placing.hpp"
 
@@ -25,10 +26,19 @@ const Given* BlockContext::given(std::string_view property) const {
 }
 
 void BlockContext::error(std::string_view property, std::string message, std::string suggestion) {
-  const Given* written = given(property);
-  builder_.diagnostics_.error(written != nullptr ? written->place : header(), std::move(message),
-                              std::move(suggestion));
+  builder_.diagnostics_.error(place_of(property), std::move(message), std::move(suggestion));
 }
+
+void BlockContext::warning(std::string_view property, std::string message, std::string suggestion) {
+  builder_.diagnostics_.warning(place_of(property), std::move(message), std::move(suggestion));
+}
+
+Place BlockContext::place_of(std::string_view property) const {
+  const Given* written = given(property);
+  return written != nullptr ? written->place : header();
+}
+
+Method BlockContext::method() const { return builder_.method_; }
 
 // The message of a shape that can't be quotes the property it is about; the place is that property's, if it
 // was given.
@@ -96,17 +106,20 @@ void BlockContext::report_unknown_property(Span name) {
 }
 
 void BlockContext::store(const PropertyRow& row, const Argument& argument, void* input) {
-  if (parameters_ == nullptr) return row.store(input, argument);
+  if (parameters_ == nullptr) {
+    if (!argument.is_display || builder_.method_ == Method::kClassic) return row.store(input, argument);
+    Argument linear = argument;
+    for (std::size_t i = 0; i < 3; ++i) linear.numbers[i] = linear_from_display(argument.numbers[i]);
+    return row.store(input, linear);
+  }
   Value& value = (*parameters_)[static_cast<std::size_t>(&row - row_.properties.data())];
   const auto& n = argument.numbers;
   switch (row.type) {
     case PropertyType::kVector:
-      value.vector = {n[0], n[1], n[2]};
-      break;
     case PropertyType::kColor: {
-      const bool is_display = argument.is_display;
-      value = Value::color({n[0], n[1], n[2]});
-      value.is_display = is_display;
+      const bool is_color = row.type == PropertyType::kColor || argument.is_display;
+      value = is_color ? Value::color({n[0], n[1], n[2]}) : Value::of_vector({n[0], n[1], n[2]});
+      value.is_display = argument.is_display;
       break;
     }
     case PropertyType::kString:
@@ -288,12 +301,14 @@ void BlockContext::add_light(const Light& light) {
   builder_.note_shape(header());
   ++builder_.lights_made_;
   builder_.draft_.scene.lights.push_back(light);
+  builder_.draft_.light_places.push_back(header());
 }
 
 std::uint32_t BlockContext::add_material(const Material& material) {
   SceneDescription& scene = builder_.draft_.scene;
   const auto index = static_cast<std::uint32_t>(scene.materials.size());
   scene.materials.push_back(material);
+  builder_.material_uses_.push_back({{}, true, false, 0});
   builder_.last_material_ = index;
   if (SceneHasher* hasher = builder_.hasher()) hasher->add_material(index);
   return index;

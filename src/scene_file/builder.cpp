@@ -82,6 +82,7 @@ void Builder::try_unused_definitions(const Surroundings& top) {
     build_body(*definition, definition->defaults, inside, {});
     store_.stop_recording();
     draft_.scene.lights.resize(lights);
+    draft_.light_places.resize(lights);
     shapes_made_ = shapes_made;
     lights_made_ = lights_made;
     if (!used_time) evaluator_.forget_time();
@@ -197,8 +198,7 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
   for (const KindRow& row : all_kinds()) {
     if (row.name == word && !row.variant.empty()) variants.push_back(row.variant);
   }
-  const bool is_to_come = word_at(0) == "area";
-  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty() && !is_to_come) return plain;
+  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty()) return plain;
   report_unknown_variant(block, around);
   return nullptr;
 }
@@ -273,7 +273,6 @@ void Builder::build_material(const KindRow& row, const BlockNode& block, std::st
   // A material with a mistake in it is known all the same: its uses are no mistakes.
   const std::uint32_t index = last_material_.value_or(0);
   materials_.push(id, index, place);
-  material_uses_.resize(draft_.scene.materials.size());
   const bool sound = diagnostics_.error_count() == errors_before;
   if (sound) material_uses_[index] = {place, false, context.depends_on_time(), id};
 }
@@ -285,7 +284,6 @@ std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& blo
   BlockContext context(*this, *row, block, around, {});
   last_material_.reset();
   row->build(context);
-  material_uses_.resize(draft_.scene.materials.size(), {{}, true, false, 0});
   if (last_material_) material_uses_[*last_material_] = {{}, true, context.depends_on_time(), 0};
   return last_material_;
 }

@@ -84,6 +84,11 @@ class BlockContext {
   bool is_given(std::string_view property) const { return given(property) != nullptr; }
   /// An error at a property, or at the block's header where the property was not given.
   void error(std::string_view property, std::string message, std::string suggestion = {});
+  void warning(std::string_view property, std::string message, std::string suggestion = {});
+  /// Of a property, or of the block's header where the property was not given.
+  Place place_of(std::string_view property) const;
+  /// How the scene's light is computed, which decides what display colours mean.
+  Method method() const;
 
   /// From the block's own space to the world; `spot` is its own middle.
   Transform placed(const Vector3d& spot) const { return around_.to_world * placing_.about(spot); }
@@ -98,6 +103,8 @@ class BlockContext {
     }
   }
   void add_light(const Light& light);
+  /// What add_shape() makes from here on is made of it, whatever the block says.
+  void use_material(std::uint32_t index) { material_ = index; }
   void build_children();
   std::uint32_t add_material(const Material& material);
 
@@ -162,6 +169,9 @@ class Builder {
   void replace_let(NameId name, const Value& value, std::string_view text) {
     replaced_lets_[name] = {value, text};
   }
+
+  /// Display colours become linear in `path`. By default the method is `classic`.
+  void set_method(Method method) { method_ = method; }
 
   /// The hasher is told what the scene says; it outlives build().
   void hash_into(SceneHasher& hasher) { hasher_ = &hasher; }
@@ -261,6 +271,7 @@ class Builder {
   SceneDraft draft_;
   SceneHasher* hasher_ = nullptr;
   SceneRecorder* recorder_ = nullptr;
+  Method method_ = Method::kClassic;
   ShapeStore store_;
   UseCounter uses_;
   std::vector<MaterialUse> material_uses_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "raytracer/error.hpp"
+#include "scene_file/method.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -128,16 +129,78 @@ void warn_of_ghosts(const CameraDraft& camera, int samples, Diagnostics& diagnos
                       "samples 16");
 }
 
+// What the settings say for either method, and what the caller says over their head.
+RenderSettings settings_of(const SceneDraft& draft, const LoadOptions& options) {
+  constexpr int kPathSamples = 64, kClassicSamples = 1, kClassicBounces = 8;
+  const RenderDraft& render = draft.render;
+  RenderSettings settings;
+  settings.width = options.width.value_or(draft.image_size[0]);
+  settings.height = options.height.value_or(draft.image_size[1]);
+  settings.method = options.method.value_or(render.method);
+  const bool is_path = settings.method == Method::kPath;
+  settings.samples =
+      options.samples.value_or(render.samples.value_or(is_path ? kPathSamples : kClassicSamples));
+  settings.bounces =
+      options.bounces.value_or(render.bounces.value_or(is_path ? kUnlimitedBounces : kClassicBounces));
+  settings.sampling = render.sampling;
+  settings.clamp_indirect = static_cast<float>(render.clamp);
+  settings.seed = options.seed.value_or(static_cast<std::uint32_t>(render.seed));
+  settings.development.is_linear = is_path;
+  if (!is_path) return settings;  // its values are what the picture shows
+  settings.development.exposure = static_cast<float>(options.exposure.value_or(render.exposure));
+  settings.development.tone = render.tone;
+  settings.development.white = Color3f(render.white);
+  return settings;
+}
+
+// Whoever looks at a scene by the other method for once knows that some words are for the first.
+void warn_of_other_methods_words(const RenderDraft& render, const LoadOptions& options,
+                                 Diagnostics& diagnostics) {
+  if (options.method) return;
+  for (const RenderDraft::Word& word : render.particular) {
+    if (word.method == render.method) continue;
+    const std::string_view wanted = kMethodWords[static_cast<std::size_t>(word.method)];
+    diagnostics.warning(word.place,
+                        fmt::format("'{}' is for method {} and has no effect in method {}", word.name, wanted,
+                                    kMethodWords[static_cast<std::size_t>(render.method)]),
+                        fmt::format("render {{ method {} }}", wanted));
+  }
+}
+
+bool has_shape_that_shines(const SceneDescription& scene) {
+  const auto shines = [](const Material& material) { return material.is_emissive(); };
+  if (std::ranges::any_of(scene.materials, shines) &&
+      std::ranges::any_of(scene.material_of, [&](std::uint32_t i) { return shines(scene.materials[i]); })) {
+    return true;
+  }
+  return std::ranges::any_of(scene.shared, [&](const auto& shared) {
+    for (std::uint32_t i = 0; i < shared->size(); ++i) {
+      if (shines(shared->material_of(i))) return true;
+    }
+    return false;
+  });
+}
+
+// Whether light comes from anywhere. In `path` the background shines, too.
+bool has_light(const SceneDescription& scene, Method method) {
+  if (!scene.lights.empty() || scene.sky != nullptr || has_shape_that_shines(scene)) return true;
+  return (method == Method::kPath ? scene.background : scene.ambient) != Color3f(0);
+}
+
+void add_headlight(SceneDescription& scene) {
+  // Without falloff the surface nearest to the eye is white if it faces it, however far away it is.
+  Light headlight;
+  headlight.position = scene.camera.position();
+  headlight.falloff = Falloff::kNone;
+  scene.lights.push_back(headlight);
+}
+
 }  // namespace
 
 RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::string& name,
                       bool depends_on_time, Diagnostics& diagnostics) {
-  RenderSettings settings;
-  settings.width = options.width.value_or(draft.image_size[0]);
-  settings.height = options.height.value_or(draft.image_size[1]);
-  settings.samples = options.samples.value_or(draft.render.samples);
-  settings.bounces = options.bounces.value_or(draft.render.bounces);
-  settings.seed = static_cast<std::uint32_t>(draft.render.seed);
+  RenderSettings settings = settings_of(draft, options);
+  warn_of_other_methods_words(draft.render, options, diagnostics);
 
   SceneDescription& scene = draft.scene;
   if (draft.render.epsilon) scene.epsilon = static_cast<float>(*draft.render.epsilon);
@@ -156,12 +219,8 @@ RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::
     warn_of_ghosts(camera, settings.samples, diagnostics);
   }
 
-  if (scene.lights.empty() && scene.ambient == Color3f(0)) {
-    // Without falloff the surface nearest to the eye is white if it faces it, however far away it is.
-    Light headlight;
-    headlight.position = scene.camera.position();
-    headlight.falloff = Falloff::kNone;
-    scene.lights.push_back(headlight);
+  if (!has_light(scene, settings.method)) {
+    add_headlight(scene);
     diagnostics.warning(name, "the scene has no light", "one shines from the camera");
   }
   if (scene.shapes.empty() && scene.instances.empty()) {

@@ -48,6 +48,13 @@ SceneHash SceneHasher::finish(const RenderSettings& settings, std::string_view c
     hasher_.add(static_cast<std::uint64_t>(number));
   }
   hasher_.add(std::uint64_t{settings.seed});
+  hasher_.add(static_cast<std::uint64_t>(settings.method));
+  hasher_.add(static_cast<std::uint64_t>(settings.sampling));
+  hasher_.add(double{settings.clamp_indirect});
+  const Development& development = settings.development;
+  hasher_.add(double{development.exposure});
+  hasher_.add(static_cast<std::uint64_t>(development.tone));
+  for (int i = 0; i < 3; ++i) hasher_.add(double{development.white[i]});
   hasher_.add(camera);
   return hasher_.value();
 }

@@ -43,6 +43,10 @@ inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{0, 1e18, true};
 inline constexpr Range kNotNegative{0, 1e18, false};
 inline constexpr Range kShare{0, 1, false};
+/// Of what shines. A quadratic light for lengths in the millions is beyond 1e15, and the product of two such
+/// numbers must stay well within what single precision holds.
+inline constexpr double kBrightest = 1e32;
+inline constexpr Range kBrightness{0, kBrightest, false};
 
 /// A value that fits its property: what the rows store away.
 struct Argument {
@@ -53,8 +57,8 @@ struct Argument {
   bool depends_on_time = false;
 };
 
-/// A colour as written; 1 is white. Display colours (#rrggbb, names) are the same numbers in `method
-/// classic`.
+/// A colour in the numbers that the scene's method computes with; 1 is white. What was written as a display
+/// colour (#rrggbb, a name) has become linear in `path`, and is as it was in `classic`.
 struct ColorValue {
   Vector3d rgb{1};
 };
