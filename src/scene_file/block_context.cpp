@@ -92,6 +92,11 @@ void BlockContext::report_unknown_property(Span name) {
   }
   const std::string_view nearest = nearest_word(word, known);
   std::string suggestion;
+  if (std::ranges::find(row_.words_to_come, word) != row_.words_to_come.end()) {
+    builder_.diagnostics_.error(place(name), fmt::format("'{}' can't be shown yet", word),
+                                "a later version will; remove it");
+    return;
+  }
   if (!nearest.empty()) {
     suggestion = fmt::format("did you mean '{}'?", nearest);
   } else if (row_.takes_material && is_property_of("material", word)) {
@@ -147,8 +152,6 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
   if (row->type == PropertyType::kMaterial) {
     material_ = builder_.find_material(argument->text, place(property.values.front().span), around_);
     note_material();
-    if (SceneRecorder* recorder = builder_.recorder(); recorder && material_)
-      recorder->use_material(*material_);
     return material_.has_value();
   }
   const bool is_parameter = parameters_ != nullptr && !is_placing(*row);
@@ -292,9 +295,18 @@ void BlockContext::build_children() {
   builder_.definitions_.pop_to(definition_height);
 }
 
+// Light that goes into a sheet of solid glass would never come out.
+void BlockContext::warn_of_solid_sheet(const Material& material) {
+  if (material.transmission == 0 || material.thin) return;
+  warning({}, fmt::format("a {} encloses nothing, and its material lets light in", row_.name),
+          "a pane's material is thin: material { transmission 1  thin true }");
+}
+
 void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
   builder_.note_shape(header());
-  builder_.store_.add(std::move(shape), material_.value_or(around_.material), depends_on_time());
+  const std::uint32_t material = material_.value_or(around_.material);
+  if (row_.is_sheet) warn_of_solid_sheet(builder_.draft_.scene.materials[material]);
+  builder_.store_.add(std::move(shape), material, depends_on_time());
 }
 
 void BlockContext::add_light(const Light& light) {

@@ -6,6 +6,8 @@
 
 #include "core/deep_stack.hpp"
 #include "core/suggest.hpp"
+#include "scene_file/material_library.hpp"
+#include "scene_file/parser.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -294,7 +296,14 @@ std::optional<std::uint32_t> Builder::find_material(std::string_view name, const
   if (position != decltype(materials_)::npos) {
     const std::uint32_t index = materials_.at(position).value;
     material_uses_[index].used = true;
+    if (SceneRecorder* told = recorder()) told->use_material(index);
     return index;
+  }
+  // Looked for once: a scene may name a material a million times.
+  const bool is_known = library_.contains(std::string(name));
+  const BlockNode* later = is_known ? nullptr : find_later_material(name, place);
+  if (later == nullptr) {
+    if (const auto index = find_library_material(name)) return index;
   }
   if (!diagnostics_.is_listening()) {
     diagnostics_.error(place, {});
@@ -304,18 +313,38 @@ std::optional<std::uint32_t> Builder::find_material(std::string_view name, const
   for (std::size_t i = 0; i < materials_.height(); ++i) {
     if (around.frame->materials.shows(i)) known.push_back(files_.names().text(materials_.at(i).name));
   }
+  for (const LibraryMaterial& row : material_library()) known.push_back(row.name);
   const std::string_view nearest = nearest_word(name, known);
   const bool is_color = evaluator_.look_up(files_.names().id_of(name), around.frame->values).is_vector();
   std::string suggestion = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
                            : is_color       ? fmt::format("material {{ color {} }}", name)
                                             : fmt::format("material {} {{ color red }}", name);
   std::vector<Note> notes;
-  if (const BlockNode* later = find_later_material(name, place)) {
+  if (later != nullptr) {
     notes.push_back({{place.source, later->header()}, "it is defined here, below its use"});
     suggestion = "a name is defined before it is used";
   }
   diagnostics_.error(place, fmt::format("there is no material '{}'", name), suggestion, notes);
   return std::nullopt;
+}
+
+// One that every scene knows, built as if its text stood where it is named first. What writes the scene down
+// gets it in place each time: there it could be hidden by the scene's own names.
+std::optional<std::uint32_t> Builder::find_library_material(std::string_view name) {
+  const LibraryMaterial* row = scene_file::find_library_material(name);
+  if (row == nullptr) return std::nullopt;
+  LibraryText& text = library_[std::string(name)];
+  if (text.material && recorder() == nullptr) return text.material;
+  if (text.tree == nullptr) {
+    text.source = std::make_unique<Source>("<library>", "", fmt::format("material {{ {} }}", row->text));
+    text.tree = parse(*text.source, files_.names(), diagnostics_);
+  }
+  const Frame frame;
+  Surroundings around;
+  around.source = text.source.get();
+  around.frame = &frame;
+  text.material = build_inline_material(*std::get<const BlockNode*>(text.tree->items.front()), around);
+  return text.material;
 }
 
 // A material of that name further down at the top of the same file.

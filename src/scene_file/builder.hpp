@@ -115,6 +115,7 @@ class BlockContext {
   const Given* given(std::string_view property) const;
   bool depends_on_time() const { return around_.depends_on_time || depends_on_time_; }
   void add_shape(std::unique_ptr<Shape> shape);
+  void warn_of_solid_sheet(const Material& material);
   void report_bad_shape(std::string_view problem);
   bool fill_items(void* input);
   bool fill_item(const PropertyNode& property, void* input);
@@ -253,6 +254,7 @@ class Builder {
                      const Surroundings& around);
   std::optional<std::uint32_t> find_material(std::string_view name, const Place& place,
                                              const Surroundings& around);
+  std::optional<std::uint32_t> find_library_material(std::string_view name);
   const BlockNode* find_later_material(std::string_view name, const Place& place) const;
   std::optional<std::uint32_t> build_inline_material(const BlockNode& block, const Surroundings& around);
 
@@ -286,6 +288,14 @@ class Builder {
   std::uint64_t shapes_made_ = 0, lights_made_ = 0;
   bool halted_ = false;
   std::optional<std::uint32_t> last_material_;
+
+  // Materials of the library that the scene has named.
+  struct LibraryText {
+    std::unique_ptr<Source> source;
+    std::unique_ptr<SyntaxTree> tree;
+    std::optional<std::uint32_t> material;
+  };
+  std::unordered_map<std::string, LibraryText> library_;
 };
 
 }  // namespace raytracer::scene_file

@@ -187,6 +187,76 @@ bool has_light(const SceneDescription& scene, Method method) {
   return (method == Method::kPath ? scene.background : scene.ambient) != Color3f(0);
 }
 
+// --- what looks like a slip -------------------------------------------------------------------------------
+
+// Whether a finite shape encloses the point: seen from there it shows its inside in all directions. An open
+// cylinder does not, and neither does a sheet.
+bool encloses(const Shape& shape, const Vector3f& point) {
+  const Box3f box = shape.bounds();
+  const bool is_near = box.is_finite() && glm::all(glm::greaterThan(point, box.lower)) &&
+                       glm::all(glm::lessThan(point, box.upper));
+  if (!is_near) return false;
+  constexpr float kAside = 0.123f;  // edges and seams lie along the axes
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      Ray3f ray{point, Vector3f(kAside, 0.7f * kAside, -0.4f * kAside)};
+      ray.direction[axis] = side;
+      Hit hit;
+      if (!shape.is_hit(ray, hit)) return false;
+      if (glm::dot(shape.surface_at(ray, hit).normal, ray.direction) < 0) return false;
+    }
+  }
+  return true;
+}
+
+bool lets_light_out(const Material& material) {
+  return material.transmission > 0 || material.alpha < 1 ||
+         (material.textures != nullptr && (material.textures->alpha || material.textures->transmission));
+}
+
+// A lamp in an opaque ball shines into that ball alone, which is seen only from within.
+void warn_of_buried_lights(const SceneDraft& draft, Diagnostics& diagnostics) {
+  constexpr std::size_t kMostPairs = 2'000'000;  // of a light and a shape; more take too long
+  const SceneDescription& scene = draft.scene;
+  if (scene.lights.size() * scene.shapes.size() > kMostPairs) return;
+  for (std::size_t i = 0; i < std::min(scene.lights.size(), draft.light_places.size()); ++i) {
+    const Light& light = scene.lights[i];
+    if (light.kind == Light::Kind::kDirectional) continue;
+    for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
+      if (lets_light_out(scene.materials[scene.material_of[s]])) continue;
+      if (!encloses(*scene.shapes[s], light.position)) continue;
+      if (encloses(*scene.shapes[s], Vector3f(scene.camera.position()))) continue;
+      diagnostics.warning(draft.light_places[i], "the light stands inside a closed shape, which hides it",
+                          "give the shape a material with 'emission' to see it shine");
+      break;
+    }
+  }
+}
+
+void warn_of_camera_in_glass(const SceneDescription& scene, const CameraDraft& camera,
+                             const std::string& name, Diagnostics& diagnostics) {
+  for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
+    const Material& material = scene.materials[scene.material_of[s]];
+    if (material.transmission == 0 || material.thin) continue;
+    if (!encloses(*scene.shapes[s], Vector3f(camera.position))) continue;
+    constexpr const char* kMessage = "the camera stands inside a shape that lets light in";
+    constexpr const char* kHint = "it sees as an eye under water does";
+    if (camera.place.source == nullptr) return diagnostics.warning(name, kMessage, kHint);
+    return diagnostics.warning(camera.place, kMessage, kHint);
+  }
+}
+
+// Whether no light has any strength although there are some.
+void warn_of_darkness(const SceneDescription& scene, const std::string& name, Diagnostics& diagnostics) {
+  const bool is_dark =
+      std::ranges::all_of(scene.lights, [](const Light& l) { return l.lambda == Color3f(0); });
+  const bool is_lit = !is_dark || scene.sky != nullptr || scene.ambient != Color3f(0) ||
+                      scene.background != Color3f(0) || has_shape_that_shines(scene);
+  if (is_lit) return;
+  diagnostics.warning(name, "the picture will be black: no light has any strength",
+                      "light { intensity 1000 }");
+}
+
 void add_headlight(SceneDescription& scene) {
   // Without falloff the surface nearest to the eye is white if it faces it, however far away it is.
   Light headlight;
@@ -223,6 +293,9 @@ RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::
     add_headlight(scene);
     diagnostics.warning(name, "the scene has no light", "one shines from the camera");
   }
+  warn_of_darkness(scene, name, diagnostics);
+  warn_of_buried_lights(draft, diagnostics);
+  warn_of_camera_in_glass(scene, camera, name, diagnostics);
   if (scene.shapes.empty() && scene.instances.empty()) {
     diagnostics.warning(name, "nothing is in view: the scene has no shapes", "sphere { }");
   } else if (!is_anything_in_view(scene)) {

@@ -82,6 +82,8 @@ constexpr PropertyRow kMaterial[] = {
         .or_else("no measured metal"),
 };
 
+constexpr std::string_view kWordsToCome[] = {"sheen_color", "iridescence", "dispersion"};
+
 // Whether what is said fits together; says where not.
 bool is_consistent(const MaterialInput& in, BlockContext& block) {
   if (in.eta.has_value() != in.k.has_value()) {
@@ -175,6 +177,7 @@ std::span<const KindRow> material_kinds() {
   static const KindRow rows[] = {[] {
     KindRow row = kind<MaterialInput, build_material>("material", "What a surface is made of.", kMaterial);
     row.block_class = BlockClass::kMaterial;
+    row.words_to_come = kWordsToCome;
     return row;
   }()};
   return rows;

@@ -121,8 +121,11 @@ struct KindRow {
   Placing placing = Placing::kNone;
   bool takes_material = false;
   bool has_children = false;
+  bool is_sheet = false;  ///< a shape that encloses nothing, whatever its properties
   std::string_view help;
   std::span<const PropertyRow> properties;
+  std::span<const std::string_view>
+      words_to_come;  ///< properties that the language knows and nothing shows yet
   void (*build)(BlockContext& context) = nullptr;
   std::string (*default_of)(const PropertyRow& row) = nullptr;
 };
