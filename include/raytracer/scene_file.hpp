@@ -64,7 +64,6 @@ struct LoadOptions {
   std::optional<int> bounces;
   std::optional<Method> method;
   std::optional<std::uint32_t> seed;
-  std::optional<double> exposure;  ///< stops; of `path`
   std::string camera;  ///< the name of the camera to use; empty: the first
   std::vector<Setting> settings;
   Limits limits;

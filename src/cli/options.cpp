@@ -64,16 +64,6 @@ void set_method(Options& options, const std::string& value) {
   usage_error(fmt::format("--method takes {}, not '{}'", fmt::join(scene_file::kMethodWords, " or "), value));
 }
 
-void set_exposure(Options& options, const std::string& value) {
-  double stops = 0;
-  const char* end = value.data() + value.size();
-  const auto [stop, status] = std::from_chars(value.data(), end, stops);
-  if (status != std::errc() || stop != end || !(stops >= -100 && stops <= 100)) {
-    usage_error(fmt::format("--exposure takes stops from -100 to 100, as 1.5, not '{}'", value));
-  }
-  options.load.exposure = stops;
-}
-
 void add_setting(Options& options, const std::string& value) {
   const std::size_t equals = value.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -111,14 +101,13 @@ constexpr OptionRow kOptions[] = {
      [](Options& o, const std::string& v) {
        o.load.samples = whole_number<int>("--samples", v, 1, 1'000'000);
      }},
-    {"--bounces", "", "N", kLoading, false, "reflections followed",
+    {"--bounces", "", "N", kLoading, false, "reflections followed, or scatterings in method path",
      [](Options& o, const std::string& v) { o.load.bounces = whole_number<int>("--bounces", v, 0, 1000); }},
-    {"--method", "", "METHOD", kLoading, false, "classic or path", set_method},
-    {"--seed", "", "N", kLoading, false, "other sample points",
+    {"--method", "", "METHOD", kLoading, false, "how light is computed: classic or path", set_method},
+    {"--seed", "", "N", kLoading, false, "other sample points, other noise",
      [](Options& o, const std::string& v) {
        o.load.seed = whole_number<std::uint32_t>("--seed", v, 0, 2147483647);
      }},
-    {"--exposure", "", "STOPS", kLoading, false, "brightens a picture of method path", set_exposure},
     {"--camera", "", "NAME", kLoading, false, "the camera to use, where the scene has several",
      [](Options& o, const std::string& v) { o.load.camera = v; }},
     {"--allow-path", "", "DIR", kLoading | kJson, false, "a further folder that the scene may read from",

@@ -147,7 +147,7 @@ RenderSettings settings_of(const SceneDraft& draft, const LoadOptions& options) 
   settings.seed = options.seed.value_or(static_cast<std::uint32_t>(render.seed));
   settings.development.is_linear = is_path;
   if (!is_path) return settings;  // its values are what the picture shows
-  settings.development.exposure = static_cast<float>(options.exposure.value_or(render.exposure));
+  settings.development.exposure = static_cast<float>(render.exposure);
   settings.development.tone = render.tone;
   settings.development.white = Color3f(render.white);
   return settings;

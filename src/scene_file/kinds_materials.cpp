@@ -37,9 +37,10 @@ constexpr PropertyRow kMaterial[] = {
         .within(kShare)
         .or_else("0.8; 1 with transmission, or eta and k"),
     property<&MaterialInput::shininess>("shininess", "0 is matt, 1 all mirror, between is partly both."),
-    property<&MaterialInput::roughness>("roughness", "0 is polished, 1 dull: puts a layer over the colour.")
+    property<&MaterialInput::roughness>(
+        "roughness", "0 is polished, 1 dull. It, ior or specular puts a layer over the colour.")
         .within(kShare)
-        .or_else("0.3, with transmission 0; the layer is there once roughness, ior or specular is"),
+        .or_else("0.3; 0 with transmission"),
     property<&MaterialInput::metallic>("metallic", "1 is metal, which reflects in its colour.")
         .within(kShare)
         .or_else("0"),
