@@ -18,6 +18,7 @@ namespace raytracer {
 
 class Accelerator;
 class LightSet;
+class ShiningParts;
 
 /// How many rays a scene takes at once.
 inline constexpr std::size_t kMostRays = 16;
@@ -123,6 +124,8 @@ class Scene {
 
   /// All that shines; gathered when it is first asked for.
   const LightSet& lights() const;
+  /// Likewise the shapes among it, as `classic` wants them.
+  const ShiningParts& shining() const;
 
   const SceneDescription& description() const { return description_; }
   const Camera& camera() const { return description_.camera; }
@@ -135,6 +138,8 @@ class Scene {
   std::unique_ptr<Accelerator> accelerator_;
   mutable std::once_flag lights_gathered_;
   mutable std::unique_ptr<const LightSet> lights_;
+  mutable std::once_flag shining_gathered_;
+  mutable std::unique_ptr<const ShiningParts> shining_;
 };
 
 }  // namespace raytracer
