@@ -59,11 +59,13 @@ float boundary_eta(int node) {
   return (1 + x * x) / (1 - x * x);
 }
 
-// The eta axis of glass: 1/3 .. 3.
+// The eta axis of glass: 1/3 .. 3, even in the root of the logarithm, so closer together about 1, where total
+// reflection begins.
 constexpr float kGlassLogRange = 1.0986123F;
 
 float glass_eta(int node) {
-  return std::exp(kGlassLogRange * (2 * static_cast<float>(node) / (GlassTable::kEtas - 1) - 1));
+  const float x = 2 * static_cast<float>(node) / (GlassTable::kEtas - 1) - 1;
+  return std::exp(std::copysign(kGlassLogRange * x * x, x));
 }
 
 /// What a facet does that a rough pane shows.
@@ -87,13 +89,15 @@ int find_facets(const Ggx& ggx, const Vector3f& o, std::array<Facet, kAround * k
   return count;
 }
 
-/// What such a facet of glass reflects and refracts in all.
-float glass_share(const Ggx& ggx, const Vector3f& o, const Facet& facet, float eta) {
+/// What such a facet of glass reflects and refracts in all: with Fresnel's reflection, and without any but
+/// total reflection.
+Vector2f glass_shares(const Ggx& ggx, const Vector3f& o, const Facet& facet, float eta) {
   const Boundary boundary = fresnel_dielectric(facet.cosine, eta);
-  const float reflected = boundary.reflectance * facet.reflection_shows;
+  if (boundary.is_total) return Vector2f(facet.weight * facet.reflection_shows);
   const Vector3f through = (facet.cosine / eta - boundary.cosine_through) * facet.normal - o / eta;
-  if (boundary.is_total || !(through.z < 0)) return facet.weight * reflected;
-  return facet.weight * (reflected + (1 - boundary.reflectance) * ggx.visible(through));
+  const float refraction_shows = through.z < 0 ? ggx.visible(through) : 0.0F;
+  const float both = interpolated(refraction_shows, facet.reflection_shows, boundary.reflectance);
+  return facet.weight * Vector2f(both, refraction_shows);
 }
 
 }  // namespace
@@ -221,9 +225,12 @@ GlassTable::GlassTable() {
   for (int row = 0; row < kCount; ++row) {
     for (int column = 0; column < kCount; ++column) fill(row, column);
     const AlphaCell cell = Grid::cell_of(Grid::alpha_of(row));
+    const auto mean_of = [&](const Grid& grid) {
+      return diffuse_mean([&](float cosine) { return grid.at(cell, cell.at_cosine(cosine, kCount)); });
+    };
     for (std::size_t e = 0; e < kEtas; ++e) {
-      mean_[e][static_cast<std::size_t>(row)] =
-          diffuse_mean([&](float cosine) { return albedo_[e].at(cell, cell.at_cosine(cosine, kCount)); });
+      mean_with_[e][static_cast<std::size_t>(row)] = mean_of(with_reflection_[e]);
+      mean_without_[e][static_cast<std::size_t>(row)] = mean_of(without_[e]);
     }
   }
 }
@@ -236,29 +243,38 @@ void GlassTable::fill(int row, int column) {
   const int count = find_facets(ggx, o, facets);
   for (int e = 0; e < kEtas; ++e) {
     const float eta = glass_eta(e);
-    float sum = 0;
-    for (int k = 0; k < count; ++k) sum += glass_share(ggx, o, facets[static_cast<std::size_t>(k)], eta);
-    albedo_[static_cast<std::size_t>(e)].values[static_cast<std::size_t>(row * kCount + column)] =
-        std::min(1.0F, sum);
+    Vector2f sum(0);
+    for (int k = 0; k < count; ++k) sum += glass_shares(ggx, o, facets[static_cast<std::size_t>(k)], eta);
+    const auto index = static_cast<std::size_t>(row * kCount + column);
+    with_reflection_[static_cast<std::size_t>(e)].values[index] = std::min(1.0F, sum.x);
+    without_[static_cast<std::size_t>(e)].values[index] = std::min(1.0F, sum.y);
   }
 }
 
 AxisCell GlassTable::eta_cell(float eta) {
-  return even_cell((std::log(eta) / kGlassLogRange + 1) * 0.5F * (kEtas - 1), kEtas);
+  const float log_eta = std::log(eta);
+  const float x = std::copysign(std::sqrt(std::abs(log_eta) / kGlassLogRange), log_eta);
+  return even_cell((x + 1) * 0.5F * (kEtas - 1), kEtas);
 }
 
-float GlassTable::albedo(const AlphaCell& alpha, const AxisCell& eta, float cosine) const {
+float GlassTable::albedo(const AlphaCell& alpha, const AxisCell& eta, float specular, float cosine) const {
   const AxisCell column = alpha.at_cosine(cosine, kCount);
   const auto slice = static_cast<std::size_t>(eta.node);
-  return interpolated(albedo_[slice].at(alpha, column), albedo_[slice + 1].at(alpha, column), eta.weight);
+  const auto along_eta = [&](const Grids& grids) {
+    return interpolated(grids[slice].at(alpha, column), grids[slice + 1].at(alpha, column), eta.weight);
+  };
+  const float with = along_eta(with_reflection_);
+  return specular < 1 ? interpolated(along_eta(without_), with, specular) : with;
 }
 
-float GlassTable::mean(const AlphaCell& alpha, const AxisCell& eta) const {
+float GlassTable::mean(const AlphaCell& alpha, const AxisCell& eta, float specular) const {
   const auto slice = static_cast<std::size_t>(eta.node), row = static_cast<std::size_t>(alpha.node);
-  const auto along_alpha = [&](std::size_t e) {
-    return interpolated(mean_[e][row], mean_[e][row + 1], alpha.weight);
+  const auto along_eta = [&](const Means& means) {
+    return interpolated(interpolated(means[slice][row], means[slice][row + 1], alpha.weight),
+                        interpolated(means[slice + 1][row], means[slice + 1][row + 1], alpha.weight),
+                        eta.weight);
   };
-  return interpolated(along_alpha(slice), along_alpha(slice + 1), eta.weight);
+  return interpolated(along_eta(mean_without_), along_eta(mean_with_), specular);
 }
 
 }  // namespace raytracer

@@ -82,22 +82,27 @@ class ReflectionTable {
 /// Rough glass: reflected and refracted light together.
 class GlassTable {
  public:
-  static constexpr int kCount = 16, kEtas = 9;
+  static constexpr int kCount = 16, kEtas = 13;
   using Grid = AlbedoGrid<kCount>;
 
   static const GlassTable& get();
 
-  /// Even in the logarithm; eta: the index behind over the one before. Beyond the tables the last counts.
+  /// eta: the index behind over the one before. Beyond the tables, 1/3 .. 3, the last counts.
   static AxisCell eta_cell(float eta);
-  float albedo(const AlphaCell& alpha, const AxisCell& eta, float cosine) const;
-  float mean(const AlphaCell& alpha, const AxisCell& eta) const;
+  /// `specular`: the share of Fresnel's reflection that is there, the rest is refracted.
+  float albedo(const AlphaCell& alpha, const AxisCell& eta, float specular, float cosine) const;
+  float mean(const AlphaCell& alpha, const AxisCell& eta, float specular) const;
 
  private:
+  using Grids = std::array<Grid, kEtas>;
+  using Means = std::array<std::array<float, kCount>, kEtas>;
+
   GlassTable();
   void fill(int row, int column);
 
-  std::array<Grid, kEtas> albedo_;
-  std::array<std::array<float, kCount>, kEtas> mean_{};
+  // Everything is linear in specular: of 1 and of 0 (then only total reflection is left).
+  Grids with_reflection_, without_;
+  Means mean_with_{}, mean_without_{};
 };
 
 }  // namespace raytracer

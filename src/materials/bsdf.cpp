@@ -207,9 +207,9 @@ void Bsdf::set_up_glass() {
   glass_cell_x_ = GlassTable::Grid::cell_of(alpha_x_);
   glass_cell_y_ = is_isotropic_ ? glass_cell_x_ : GlassTable::Grid::cell_of(alpha_y_);
   for (GlassSide& side : sides_) {
-    side.eta_x = side.eta_y = GlassTable::eta_cell(side.eta);
-    side.mean_loss =
-        1 - std::max(table.mean(glass_cell_x_, side.eta_x), table.mean(glass_cell_y_, side.eta_y));
+    side.eta_cell = GlassTable::eta_cell(side.eta);
+    side.mean_loss = 1 - std::max(table.mean(glass_cell_x_, side.eta_cell, specular_),
+                                  table.mean(glass_cell_y_, side.eta_cell, specular_));
   }
   const float sum = sides_[0].mean_loss + sides_[1].mean_loss;
   if (sides_[0].mean_loss < kLeastLoss || sides_[1].mean_loss < kLeastLoss) {
@@ -256,8 +256,9 @@ float Bsdf::mirror_loss(float cosine) const {
 float Bsdf::glass_loss(const GlassSide& side, float cosine) const {
   if (is_thin_) return mirror_loss(cosine);
   const GlassTable& table = GlassTable::get();
-  const float albedo = table.albedo(glass_cell_x_, side.eta_x, cosine);
-  return 1 - (is_isotropic_ ? albedo : std::max(albedo, table.albedo(glass_cell_y_, side.eta_y, cosine)));
+  const float albedo = table.albedo(glass_cell_x_, side.eta_cell, specular_, cosine);
+  if (is_isotropic_) return 1 - albedo;
+  return 1 - std::max(albedo, table.albedo(glass_cell_y_, side.eta_cell, specular_, cosine));
 }
 
 float Bsdf::layer_passes(float cosine) const {

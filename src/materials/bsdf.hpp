@@ -70,7 +70,7 @@ class Bsdf {
   /// What the glass does to light from one side of the surface.
   struct GlassSide {
     float eta = 1;  ///< the index behind over the one before
-    AxisCell eta_x, eta_y;
+    AxisCell eta_cell;
     float mean_loss = 0;  ///< what facets hold back of diffuse light
     /// Of what they hold back, the share that leaves after all on this side and on the other.
     float back = 0, through = 0;
