@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "raytracer/error.hpp"
 #include "raytracer/shapes.hpp"
 #include "shapes/checks.hpp"
 #include "shapes/hits.hpp"
+#include "shapes/part_sampling.hpp"
 #include "shapes/surface.hpp"
 
 namespace raytracer {
@@ -80,15 +82,52 @@ class Triangle final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f&, const Hit& hit) const override {
-    const double u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
+    return surface_of(static_cast<double>(hit.u), static_cast<double>(hit.v));
+  }
+
+  SurfaceDetail detail_at(const Ray3f&, const Hit& hit) const override {
+    SurfaceDetail detail;
+    detail.uv = {hit.u, hit.v};
+    detail.along_u = Vector3f(corners_[1] - corners_[0]);
+    detail.along_v = Vector3f(corners_[2] - corners_[0]);
+    return detail;
+  }
+
+  std::uint32_t part_count() const override { return 1; }
+
+  PartExtent part_extent(std::uint32_t) const override {
+    return shapes::flat_extent(bounds_, area(), normal_);
+  }
+
+  /// Uniform over the area.
+  bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    const double root = std::sqrt(static_cast<double>(u.x)), along = static_cast<double>(u.y);
+    const SurfacePoint point = surface_of(root * (1 - along), root * along);
+    return shapes::set_sample(point, part_pdf(0, from, point), sample);
+  }
+
+  float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
+    // The height of `from` above the plane, free of the rounding of the point.
+    const Vector3d origin(from), way = Vector3d(point.position) - origin;
+    const double squared = glm::dot(way, way);
+    const double facing = std::abs(glm::dot(normal_, corners_[0] - origin));
+    return shapes::usable_density(squared * std::sqrt(squared) / (area() * facing));
+  }
+
+ private:
+  double area() const {
+    return 0.5 * glm::length(glm::cross(corners_[1] - corners_[0], corners_[2] - corners_[0]));
+  }
+
+  SurfacePoint surface_of(double u, double v) const {
     const Vector3d position = corners_[0] + u * (corners_[1] - corners_[0]) + v * (corners_[2] - corners_[0]);
     shapes::SurfaceBound bound;
     bound.arithmetic = 8 * kDoubleRounding * (glm::length(corners_[0]) + glm::length(extent_));
     bound.extent = extent_;
-    return shapes::rounded_surface(position, normal_, {hit.u, hit.v}, bound);
+    return shapes::rounded_surface(position, normal_, bound);
   }
 
- private:
   std::array<Vector3d, 3> corners_;
   std::array<std::size_t, 3> ascending_ = {0, 1, 2};  // the corners from the least to the greatest
   Vector3d normal_;
