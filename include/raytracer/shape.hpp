@@ -51,6 +51,7 @@ struct ShapeSample {
   float position_error = 0;  ///< as SurfacePoint has it
   Vector3f normal{0, 1, 0};  ///< geometric, unit length
   float pdf = 0;             ///< of the choice, per steradian as seen from there
+  float u = 0, v = 0;        ///< as Hit has them: the shape's own meaning
 };
 
 class TriangleMesh;

@@ -81,6 +81,8 @@ class Quad final : public Shape {
     glm::dvec2 weights;
     if (!parallelogram().choose(Vector3d(from), u, weights)) return false;
     const SurfacePoint point = surface_of(weights);
+    sample.u = static_cast<float>(weights.x);
+    sample.v = static_cast<float>(weights.y);
     return shapes::set_sample(point, part_pdf(0, from, point), sample);
   }
 

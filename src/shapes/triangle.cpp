@@ -103,6 +103,8 @@ class Triangle final : public Shape {
   bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
                    ShapeSample& sample) const override {
     const double root = std::sqrt(static_cast<double>(u.x)), along = static_cast<double>(u.y);
+    sample.u = static_cast<float>(root * (1 - along));
+    sample.v = static_cast<float>(root * along);
     const SurfacePoint point = surface_of(root * (1 - along), root * along);
     return shapes::set_sample(point, part_pdf(0, from, point), sample);
   }
