@@ -116,9 +116,10 @@ class AlignedCube final : public Shape {
                    ShapeSample& sample) const override {
     const shapes::Parallelogram face = parallelogram(part);
     glm::dvec2 weights;
-    if (!face.choose(Vector3d(from), u, weights)) return false;
+    const float pdf = face.choose(Vector3d(from), u, weights);
+    if (!(pdf > 0)) return false;
     const SurfacePoint point = shapes::rounded_surface(face.at(weights), face.normal, {});
-    return shapes::set_sample(point, part_pdf(part, from, point), sample);
+    return shapes::set_sample(point, pdf, sample);
   }
 
   float part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const override {
@@ -184,9 +185,10 @@ class FramedCube final : public Shape {
                    ShapeSample& sample) const override {
     const shapes::Parallelogram face = parallelogram(part);
     glm::dvec2 weights;
-    if (!face.choose(Vector3d(from), u, weights)) return false;
+    const float pdf = face.choose(Vector3d(from), u, weights);
+    if (!(pdf > 0)) return false;
     const SurfacePoint point = surface_of(local_of(part, 2.0 * weights - 1.0), part);
-    return shapes::set_sample(point, face.pdf(Vector3d(from), Vector3d(point.position)), sample);
+    return shapes::set_sample(point, pdf, sample);
   }
 
   float part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const override {

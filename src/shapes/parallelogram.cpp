@@ -112,13 +112,17 @@ Box3f Parallelogram::bounds() const {
   return rounded_bounds(lower, upper);
 }
 
-bool Parallelogram::choose(const Vector3d& from, const Vector2f& u, glm::dvec2& st) const {
-  if (glm::dot(from - corner, normal) == 0) return false;
+float Parallelogram::choose(const Vector3d& from, const Vector2f& u, glm::dvec2& st) const {
+  if (is_near_rectangle(*this, from)) {
+    if (glm::dot(from - corner, normal) == 0) return 0;
+    const SphericalRectangle seen(*this, from);
+    if (seen.solid_angle() > kLeastSolidAngle) {
+      st = seen.choose(u);
+      return usable_density(1 / seen.solid_angle());
+    }
+  }
   st = {static_cast<double>(u.x), static_cast<double>(u.y)};
-  if (!is_near_rectangle(*this, from)) return true;
-  const SphericalRectangle seen(*this, from);
-  if (seen.solid_angle() > kLeastSolidAngle) st = seen.choose(u);
-  return true;
+  return area_density(from, at(st));
 }
 
 float Parallelogram::pdf(const Vector3d& from, const Vector3d& position) const {
@@ -126,6 +130,10 @@ float Parallelogram::pdf(const Vector3d& from, const Vector3d& position) const {
     const SphericalRectangle seen(*this, from);
     if (seen.solid_angle() > kLeastSolidAngle) return usable_density(1 / seen.solid_angle());
   }
+  return area_density(from, position);
+}
+
+float Parallelogram::area_density(const Vector3d& from, const Vector3d& position) const {
   // The height of `from` above the plane, free of the rounding of `position`.
   const Vector3d way = position - from;
   const double squared = glm::dot(way, way);

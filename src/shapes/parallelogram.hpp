@@ -15,10 +15,13 @@ struct Parallelogram {
   Box3f bounds() const;
 
   /// Chooses s and t as seen from `from`: uniform over the directions where it is a rectangle close by,
-  /// uniform over the area otherwise. False where `from` lies in its plane.
-  bool choose(const Vector3d& from, const Vector2f& u, glm::dvec2& st) const;
+  /// uniform over the area otherwise. Returns the density per steradian; 0 where `from` lies in its plane.
+  float choose(const Vector3d& from, const Vector2f& u, glm::dvec2& st) const;
   /// The density per steradian with which choose() takes the direction of `position`, a point of it.
   float pdf(const Vector3d& from, const Vector3d& position) const;
+
+ private:
+  float area_density(const Vector3d& from, const Vector3d& position) const;
 };
 
 }  // namespace raytracer::shapes

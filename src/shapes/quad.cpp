@@ -79,11 +79,12 @@ class Quad final : public Shape {
   bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
                    ShapeSample& sample) const override {
     glm::dvec2 weights;
-    if (!parallelogram().choose(Vector3d(from), u, weights)) return false;
+    const float pdf = parallelogram().choose(Vector3d(from), u, weights);
+    if (!(pdf > 0)) return false;
     const SurfacePoint point = surface_of(weights);
     sample.u = static_cast<float>(weights.x);
     sample.v = static_cast<float>(weights.y);
-    return shapes::set_sample(point, part_pdf(0, from, point), sample);
+    return shapes::set_sample(point, pdf, sample);
   }
 
   float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
