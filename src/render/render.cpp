@@ -111,12 +111,16 @@ class ClassicRenderer {
     const std::vector<glm::ivec2>& pixels = sums.pixels();
     std::vector<Color3f> colors(pixels.size());
     std::vector<Ray3f> rays(pixels.size());
+    std::vector<Vector2f> light_points(settings_.samples == 1 ? 0 : pixels.size());
     PixelColors tracer(scene_);
     for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
       for (std::size_t i = 0; i < pixels.size(); ++i) {
         rays[i] = camera_ray(scene_, image_, pixels[i], place_in_pixel(pixels[i], sample));
       }
-      tracer.trace(rays, settings_.bounces, colors);
+      for (std::size_t i = 0; i < light_points.size(); ++i) {
+        light_points[i] = point_of_lights(pixels[i], sample);
+      }
+      tracer.trace(rays, settings_.bounces, colors, light_points);
       sums.add(colors, 1);
     }
     sums.store(slice_, settings_.samples);
@@ -129,6 +133,14 @@ class ClassicRenderer {
     if (settings_.samples == 1) return Vector2f(0.5f);
     const auto number = static_cast<std::uint32_t>(image_.index(pixel.x, pixel.y));
     return sobol_point(static_cast<std::uint32_t>(sample), hash_bits(number ^ hash_bits(settings_.seed)));
+  }
+
+  // Another point of the same kind, for the places on what shines.
+  Vector2f point_of_lights(const glm::ivec2& pixel, int sample) const {
+    const auto number = static_cast<std::uint32_t>(image_.index(pixel.x, pixel.y));
+    constexpr std::uint32_t kOther = 0x68BC21EBU;
+    return sobol_point(static_cast<std::uint32_t>(sample),
+                       hash_bits(number ^ hash_bits(settings_.seed ^ kOther)));
   }
 
   const Scene& scene_;
