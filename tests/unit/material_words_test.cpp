@@ -208,6 +208,9 @@ TEST_CASE("materials of the library need no definition") {
   CHECK(named("sphere { material water }").ior == 1.333f);
   CHECK(named("define ball (size 1) { sphere { radius size  material diamond } } ball { }").ior == 2.417f);
   CHECK(named("group { material mirror  sphere { } }").shininess == 1);
+  CHECK(named("sphere { material gold }").conductor);
+  CHECK(named("sphere { material gold }").conductor->k.x == Approx(3.98f).margin(0.01));
+  CHECK(named("sphere { material chrome }").roughness == 0);
   // The scene's own goes first.
   CHECK(named("material glass { color 1 0 0 } sphere { material glass }").color == Color3f(1, 0, 0));
 }
