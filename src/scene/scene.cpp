@@ -20,6 +20,8 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     if (instance.shared >= description_.shared.size()) {
       throw Error(ErrorKind::kUsage, "an instance's shapes do not exist");
     }
+    if (instance.material != Instance::kOwnMaterials && instance.material >= description_.materials.size())
+      throw Error(ErrorKind::kUsage, "an instance's material does not exist");
   }
   accelerator_ =
       std::make_unique<Accelerator>(description_.shapes, description_.shared, description_.instances);
