@@ -43,6 +43,7 @@ class SharedShapes {
   bool is_of_first_material(std::uint32_t shape) const { return material_of_[shape] == 0; }
   std::size_t size() const { return shapes_.size(); }
   const Box3f& bounds() const { return bounds_; }  ///< in the shapes' own space
+  bool has_vertex_colors() const { return has_vertex_colors_; }
   const Accelerator& accelerator() const { return *accelerator_; }
 
  private:
@@ -50,6 +51,7 @@ class SharedShapes {
   std::vector<std::uint32_t> material_of_;
   std::vector<Material> materials_;
   Box3f bounds_;
+  bool has_vertex_colors_ = false;
   std::unique_ptr<Accelerator> accelerator_;
 };
 
@@ -134,6 +136,8 @@ class Scene {
   /// All that shines; gathered when it is first asked for.
   const LightSet& lights() const;
 
+  /// Whether any mesh has colours at its vertices.
+  bool has_vertex_colors() const { return has_vertex_colors_; }
   const SceneDescription& description() const { return description_; }
   const Camera& camera() const { return description_.camera; }
 
@@ -143,6 +147,7 @@ class Scene {
 
   SceneDescription description_;
   std::unique_ptr<Accelerator> accelerator_;
+  bool has_vertex_colors_ = false;
   mutable std::once_flag lights_gathered_;
   mutable std::unique_ptr<const LightSet> lights_;
 };

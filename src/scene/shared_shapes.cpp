@@ -7,6 +7,7 @@
 #include "raytracer/error.hpp"
 #include "raytracer/scene.hpp"
 #include "scene/accelerator.hpp"
+#include "scene/vertex_colors.hpp"
 
 namespace raytracer {
 namespace {
@@ -39,6 +40,7 @@ SharedShapes::SharedShapes(std::vector<std::unique_ptr<Shape>> shapes, std::vect
   for (const auto& shape : shapes_) bounds_.extend(shape->bounds());
   if (!bounds_.is_empty() && !bounds_.is_finite())
     throw Error(ErrorKind::kUsage, "an endless shape can't be shared");
+  has_vertex_colors_ = any_vertex_colors(shapes_);
   accelerator_ = std::make_unique<Accelerator>(shapes_);
 }
 
