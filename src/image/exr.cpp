@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/printable.hpp"
 #include "image/encode.hpp"
 #include "image/exr_header.hpp"
 #include "image/readers.hpp"
@@ -182,7 +183,7 @@ ChosenChannels choose_channels(const ExrHeader& header) {
   if (chosen.names.empty() && header.channels.size() == 1) chosen.names = {header.channels[0].name};
   if (chosen.names.empty()) {
     throw Error(ErrorKind::kScene,
-                fmt::format("the EXR has no channel R, G, B or Y, but {}", all_names(header)));
+                fmt::format("the EXR has no channel R, G, B or Y, but {}", printable(all_names(header))));
   }
   for (const std::string& name : chosen.names) {
     if (name.empty()) continue;
@@ -190,7 +191,7 @@ ChosenChannels choose_channels(const ExrHeader& header) {
     chosen.is_half = chosen.is_half && channel->type == Imf::HALF;
     if (channel->x_sampling == 1 && channel->y_sampling == 1) continue;
     throw Error(ErrorKind::kScene,
-                fmt::format("the EXR's channel {} has fewer pixels than the picture", name));
+                fmt::format("the EXR's channel {} has fewer pixels than the picture", printable(name)));
   }
   return chosen;
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/printable.hpp"
 #include "image/picture.hpp"
 #include "raytracer/error.hpp"
 
@@ -71,7 +72,7 @@ std::vector<ExrChannel> read_channels(Bytes value) {
     channel.x_sampling = value.number();
     channel.y_sampling = value.number();
     if (channel.type < 0 || channel.type > 2)
-      throw broken(fmt::format("channel {} has no type", channel.name));
+      throw broken(fmt::format("channel {} has no type", printable(channel.name)));
     channels.push_back(std::move(channel));
   }
   return channels;
@@ -83,7 +84,7 @@ bool read_attribute(Bytes& bytes, Part& part) {
   if (name.empty()) return false;
   const std::string type = bytes.word();
   const std::int32_t size = bytes.number();
-  if (size < 0) throw broken(fmt::format("attribute {} has a negative size", name));
+  if (size < 0) throw broken(fmt::format("attribute {} has a negative size", printable(name)));
   const ByteSpan content = bytes.take(static_cast<std::size_t>(size));
   Bytes value(content);
   if (name == "dataWindow") part.data = read_window(value);

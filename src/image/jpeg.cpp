@@ -35,8 +35,7 @@ struct JpegErrors {
 // Where pixels are missing libjpeg only warns, and invents them; here that is an error. Other warnings leave
 // a picture that every viewer shows.
 void judge_message(j_common_ptr jpeg, int level) {
-  const int code = jpeg->err->msg_code;
-  if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER)) keep_problem_and_jump(jpeg);
+  if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) keep_problem_and_jump(jpeg);
 }
 
 void limit_scans(j_common_ptr jpeg) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/printable.hpp"
 #include "image/readers.hpp"
 #include "raytracer/error.hpp"
 
@@ -76,7 +77,7 @@ Resolution read_head(HeadLines& lines) {
     if (!line.starts_with("FORMAT=") || line == "FORMAT=32-bit_rle_rgbe") continue;
     throw Error(ErrorKind::kScene,
                 fmt::format("the Radiance HDR's pixels are in {}; only 32-bit_rle_rgbe can be read",
-                            line.substr(7, 40)));
+                            printable(line.substr(7, 40))));
   }
   return parse_resolution(lines.next());
 }
