@@ -266,8 +266,9 @@ class Builder {
   std::vector<MaterialUse> material_uses_;
   std::unordered_map<NameId, Replacement> replaced_lets_;
   std::vector<TopLevelLet> top_level_lets_;
-  std::unordered_map<const SyntaxTree*, int> bad_includes_;
-  NameTable setting_names_;  // a loop makes no second camera
+  std::unordered_map<const SyntaxTree*, int> bad_includes_;      // turns in which a file had mistakes
+  std::unordered_map<const IncludeNode*, int> failed_includes_;  // turns in which there was no file to read
+  NameTable setting_names_;                                      // a loop makes no second camera
   std::vector<std::shared_ptr<const Definition>> top_definitions_;
   std::unordered_map<const DefineNode*, bool> used_definitions_;
   std::size_t depth_ = 0;  // of statements in statements, all kinds counted
