@@ -85,17 +85,18 @@ void PixelColors::shade_hit(std::size_t depth, int bounces_left, std::uint32_t r
   }
   const float shininess = mirror_share(material);
   const ShadingPoint point = shading_point(scene_, seen_along, hit, scene_.surface_at(seen_along, hit));
+  const Color3f tint = surface_color(scene_, seen_along, hit, material);
   if (shininess < 1) {
     LitPoint& lit = lit_.emplace_back();
     lit.point = point;
     lit.ray = ray;
-    lit.share = (1 - shininess) * material.color;
+    lit.share = (1 - shininess) * tint;
     lit.light = 255.0f * scene_.description().ambient;
   }
   if (shininess > 0 && next != nullptr) {
     next->rays.push_back(reflected_ray(seen_along, point));
     next->parent.push_back(ray);
-    next->share.push_back(shininess * material.color);
+    next->share.push_back(shininess * tint);
     if (!light_points_.empty()) next->origin.push_back(level.origin.empty() ? ray : level.origin[ray]);
   }
 }

@@ -50,14 +50,15 @@ Seen Recursion::look(const Sight& sight) {
   if (!is_of_paper(material) || sight.media.innermost() != nullptr) return look_at_layers(sight, hit);
   const float shininess = mirror_share(material);
   const ShadingPoint point = shading_point(scene_, sight.ray, hit, scene_.surface_at(sight.ray, hit));
+  const Color3f tint = surface_color(scene_, sight.ray, hit, material);
   Seen seen;
-  if (shininess < 1) seen.color += (1 - shininess) * material.color * direct_light(point);
+  if (shininess < 1) seen.color += (1 - shininess) * tint * direct_light(point);
   if (shininess > 0 && sight.bounces_left > 0) {
     Sight mirrored = sight;
     mirrored.ray = reflected_ray(sight.ray, point);
     mirrored.bounces_left = sight.bounces_left - 1;
     mirrored.is_camera = false;
-    seen.color += shininess * material.color * look(mirrored).color;
+    seen.color += shininess * tint * look(mirrored).color;
   }
   return seen;
 }
