@@ -135,7 +135,8 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
   if (own.is_area_light && !own.is_visible && sight.is_camera) return look_behind(sight, hit);
   SurfacePoint point = scene_.surface_at(sight.ray, hit);
   std::optional<Material> textured;
-  if (own.textures != nullptr) textured = scene_.textured(sight.ray, hit, 0, point);
+  if (own.textures != nullptr || scene_.has_vertex_colors())
+    textured = scene_.textured(sight.ray, hit, 0, point);
   const Material& material = textured ? *textured : own;
 
   const float length = glm::length(sight.ray.direction);
