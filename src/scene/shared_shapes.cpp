@@ -8,6 +8,7 @@
 #include "raytracer/scene.hpp"
 #include "scene/accelerator.hpp"
 #include "scene/placed_surface.hpp"
+#include "scene/vertex_colors.hpp"
 
 namespace raytracer {
 namespace {
@@ -40,6 +41,7 @@ SharedShapes::SharedShapes(std::vector<std::unique_ptr<Shape>> shapes, std::vect
   for (const auto& shape : shapes_) bounds_.extend(shape->bounds());
   if (!bounds_.is_empty() && !bounds_.is_finite())
     throw Error(ErrorKind::kUsage, "an endless shape can't be shared");
+  has_vertex_colors_ = any_vertex_colors(shapes_);
   accelerator_ = std::make_unique<Accelerator>(shapes_);
 }
 
