@@ -25,15 +25,6 @@ Color3f share(const Color3f& c) { return {share(c.x), share(c.y), share(c.z)}; }
 float index_of_refraction(float x) { return x > 0 ? std::clamp(x, 1e-2F, 1e2F) : 1.0F; }
 float largest(const Color3f& c) { return std::max(c.x, std::max(c.y, c.z)); }
 
-ConductorIndex relative_to(const ConductorIndex& index, float outside) {
-  ConductorIndex result;
-  for (int c = 0; c < 3; ++c) {
-    result.eta[c] = std::max(1e-3F, std::min(1e3F, index.eta[c] / outside));
-    result.k[c] = std::max(0.0F, std::min(1e3F, index.k[c] / outside));
-  }
-  return result;
-}
-
 float reflect_probability(const Color3f& reflected, const Color3f& through) {
   const float r = largest(reflected), t = largest(through);
   return t > 0 ? r / (r + t) : 1.0F;
@@ -51,6 +42,7 @@ struct Bsdf::View {
   const GlassSide* side;
   const GlassSide* other_side;
   FacetShares smooth;  ///< of smooth facets
+  float stretch;       ///< of rough facets, of o
   float coat_passes, layer_passes, mirror_loss, glass_loss;
   // How often each lobe is chosen; their sum is 1. `back` and `through` are the matt ones.
   float p_mirror, p_passing, p_coat, p_facet, p_back, p_through;
@@ -59,7 +51,6 @@ struct Bsdf::View {
 // --- the closure
 // ----------------------------------------------------------------------------------------------
 
-// Members that a matt surface does not need are left alone for it: most surfaces are.
 Bsdf::Bsdf(const Material& material, const BsdfFrame& frame)
     : color_(share(material.color)),
       is_black_(material.is_area_light),
@@ -143,6 +134,7 @@ void Bsdf::set_up_frame(const BsdfFrame& frame) {
 // The layer stands on an opaque base only where the material says so; of a boundary only how far the indices
 // are apart counts, so that no opaque base ever hides behind total reflection.
 void Bsdf::set_up_layers(const Material& material, float outside) {
+  reflection_ = &ReflectionTable::get();
   cell_x_ = ReflectionTable::Grid::cell_of(alpha_x_);
   cell_y_ = is_isotropic_ ? cell_x_ : ReflectionTable::Grid::cell_of(alpha_y_);
   const float eta = index_of_refraction(material.ior) / outside;
@@ -154,11 +146,10 @@ void Bsdf::set_up_layers(const Material& material, float outside) {
   layer_mean_passes_ = 1;
   if (opaque_ > 0 && specular_ > 0 && layer_eta_ > 1) {
     layer_eta_cell_ = ReflectionTable::eta_cell(layer_eta_);
-    const ReflectionTable& table = ReflectionTable::get();
     // Along two roughnesses the greater reflection is assumed (see layer_passes), so the smaller mean is
     // safe.
-    layer_mean_passes_ = 1 - specular_ * std::max(table.boundary_mean(cell_x_, layer_eta_cell_),
-                                                  table.boundary_mean(cell_y_, layer_eta_cell_));
+    layer_mean_passes_ = 1 - specular_ * std::max(reflection_->boundary_mean(cell_x_, layer_eta_cell_),
+                                                  reflection_->boundary_mean(cell_y_, layer_eta_cell_));
   }
   if (coat_ <= 0) return;
   const float coat_eta = kCoatIor / outside;
@@ -175,14 +166,13 @@ void Bsdf::set_up_metal(const Material& material, float outside) {
   mirror_mean_loss_ = 0;
   const bool is_rough = alpha_x_ > 0;
   if (is_rough && has_compensation_ && (metal_ > 0 || (glass_ > 0 && is_thin_))) {
-    const ReflectionTable& table = ReflectionTable::get();
-    mirror_mean_loss_ = 1 - std::max(table.mirror_mean(cell_x_), table.mirror_mean(cell_y_));
+    mirror_mean_loss_ = 1 - std::max(reflection_->mirror_mean(cell_x_), reflection_->mirror_mean(cell_y_));
     if (mirror_mean_loss_ < kLeastLoss) mirror_mean_loss_ = 0;
   }
   if (metal_ <= 0) return;
   is_measured_ = material.conductor.has_value();
   if (is_measured_) {
-    conductor_ = relative_to(*material.conductor, outside);
+    conductor_ = ConductorSquares(*material.conductor, outside);
     metal_mean_ = color_ * fresnel_conductor_mean(conductor_);
   } else {
     metal_f0_ = color_;
@@ -227,7 +217,8 @@ void Bsdf::set_up_glass() {
 // ------------------------------------------------------------------------------------------
 
 Color3f Bsdf::metal_fresnel(float cosine) const {
-  return is_measured_ ? color_ * fresnel_conductor(conductor_, cosine) : fresnel_schlick(metal_f0_, cosine);
+  return is_measured_ ? color_ * fresnel_conductor(conductor_, cosine)
+                      : fresnel_schlick(metal_f0_, cosine);
 }
 
 Bsdf::FacetShares Bsdf::facet_shares(const View& view, float cosine) const {
@@ -248,9 +239,8 @@ Bsdf::FacetShares Bsdf::facet_shares(const View& view, float cosine) const {
 
 // Along two roughnesses the smaller loss is assumed: never too much is made up for.
 float Bsdf::mirror_loss(float cosine) const {
-  const ReflectionTable& table = ReflectionTable::get();
-  const float albedo = table.mirror(cell_x_, cosine);
-  return 1 - (is_isotropic_ ? albedo : std::max(albedo, table.mirror(cell_y_, cosine)));
+  const float albedo = reflection_->mirror(cell_x_, cosine);
+  return 1 - (is_isotropic_ ? albedo : std::max(albedo, reflection_->mirror(cell_y_, cosine)));
 }
 
 float Bsdf::glass_loss(const GlassSide& side, float cosine) const {
@@ -264,10 +254,9 @@ float Bsdf::glass_loss(const GlassSide& side, float cosine) const {
 float Bsdf::layer_passes(float cosine) const {
   if (specular_ <= 0 || layer_eta_ <= 1) return 1;
   if (alpha_x_ <= 0) return 1 - specular_ * fresnel_dielectric(cosine, layer_eta_).reflectance;
-  const ReflectionTable& table = ReflectionTable::get();
-  float reflected = table.boundary(cell_x_, layer_eta_cell_, layer_eta_, cosine);
+  float reflected = reflection_->boundary(cell_x_, layer_eta_cell_, layer_eta_, cosine);
   if (!is_isotropic_) {
-    reflected = std::max(reflected, table.boundary(cell_y_, layer_eta_cell_, layer_eta_, cosine));
+    reflected = std::max(reflected, reflection_->boundary(cell_y_, layer_eta_cell_, layer_eta_, cosine));
   }
   return 1 - specular_ * reflected;
 }
@@ -275,7 +264,7 @@ float Bsdf::layer_passes(float cosine) const {
 float Bsdf::coat_passes(float cosine, bool is_inside) const {
   if (coat_ <= 0 || is_inside) return 1;
   if (coat_alpha_ <= 0) return 1 - coat_ * fresnel_dielectric(cosine, coat_eta_).reflectance;
-  return 1 - coat_ * ReflectionTable::get().boundary(coat_cell_, coat_eta_cell_, coat_eta_, cosine);
+  return 1 - coat_ * reflection_->boundary(coat_cell_, coat_eta_cell_, coat_eta_, cosine);
 }
 
 // The base under its layer: what goes in at o and comes out at i, and what the layer throws back from below
@@ -333,6 +322,7 @@ void Bsdf::choose_lobes(View& view) const {
   view.p_passing = passing_ * brightest * below;
   if (alpha_x_ <= 0) {
     view.smooth = facet_shares(view, view.o.z);
+    view.stretch = 0;
     view.p_facet = below * (largest(view.smooth.reflected) + largest(view.smooth.through));
   } else {
     const float metal = metal_ > 0 ? metal_ * largest(metal_mean_) * (1 - view.mirror_loss) : 0.0F;
@@ -515,7 +505,11 @@ bool Bsdf::sample_matt(const Vector3f& out, const Vector2f& u, BsdfSample& sampl
   const Vector3f direction = i.x * tangent + i.y * bitangent + (is_above ? i.z : -i.z) * normal_;
   const float geometric = glm::dot(geometric_normal_, direction);
   if (!(i.z > 0) || !(is_above ? geometric > 0 : geometric < 0)) return false;
-  sample = {direction, color_, i.z * kInversePi, false, false};
+  // One by one: a whole struct at once is put together in memory first, for twice the time.
+  sample.direction = direction;
+  sample.weight = color_;
+  sample.pdf = i.z * kInversePi;
+  sample.is_delta = sample.is_transmission = false;
   return true;
 }
 
@@ -560,7 +554,11 @@ bool Bsdf::finish_delta(BsdfSample& sample, const Vector3f& direction, const Col
   const float cosine = glm::dot(normal_, direction), geometric = glm::dot(geometric_normal_, direction);
   if (!((cosine > 0 && geometric > 0) || (cosine < 0 && geometric < 0))) return false;
   if (!(probability > 0)) return false;
-  sample = {direction, share / probability, probability, true, is_transmission};
+  sample.direction = direction;
+  sample.weight = share / probability;
+  sample.pdf = probability;
+  sample.is_delta = true;
+  sample.is_transmission = is_transmission;
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "materials/albedo_tables.hpp"
+#include "materials/fresnel.hpp"
 #include "raytracer/material.hpp"
 #include "raytracer/vector3f.hpp"
 
@@ -69,11 +70,11 @@ class Bsdf {
   };
   /// What the glass does to light from one side of the surface.
   struct GlassSide {
-    float eta = 1;  ///< the index behind over the one before
+    float eta;  ///< the index behind over the one before
     AxisCell eta_cell;
-    float mean_loss = 0;  ///< what facets hold back of diffuse light
+    float mean_loss;  ///< what facets hold back of diffuse light
     /// Of what they hold back, the share that leaves after all on this side and on the other.
-    float back = 0, through = 0;
+    float back, through;
   };
 
   void set_up_shares(const Material& material);
@@ -109,7 +110,8 @@ class Bsdf {
                     bool is_transmission) const;
   Vector3f to_world(const View& view, const Vector3f& local) const;
 
-  // Only the first two groups are of any use to a purely matt surface, and only they are set then.
+  // Only the first two groups are of any use to a purely matt surface, and only they are set then: most
+  // surfaces are matt.
   Color3f color_;
   bool is_black_, is_matt_, is_delta_;
   Vector3f geometric_normal_, normal_;
@@ -122,10 +124,11 @@ class Bsdf {
   float alpha_x_, alpha_y_, coat_alpha_;             // 0: smooth
   float specular_, layer_eta_, coat_eta_;
   Color3f metal_f0_;
-  ConductorIndex conductor_;
+  ConductorSquares conductor_;
   Color3f metal_mean_;      // of Fresnel's reflectance, diffuse light
   Color3f metal_multiple_;  // what of light held back by facets leaves at last
   float mirror_mean_loss_, layer_mean_passes_;
+  const ReflectionTable* reflection_;
   AlphaCell cell_x_, cell_y_, coat_cell_, glass_cell_x_, glass_cell_y_;
   AxisCell layer_eta_cell_, coat_eta_cell_;
   GlassSide sides_[2];  // outside, inside
