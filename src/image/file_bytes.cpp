@@ -60,16 +60,14 @@ class OpenFile {
 
 }  // namespace
 
-std::vector<std::uint8_t> read_file_bytes(const std::string& path) {
+FileBytes read_file_bytes(const std::string& path) {
   const OpenFile file(path);
   const std::size_t size = file.size();
-  try {
-    std::vector<std::uint8_t> bytes(size);
-    bytes.resize(file.read(bytes.data(), size));
-    return bytes;
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::kScene, "there is not enough memory to read it");
-  }
+  // Not cleared first, which would take a third of the time.
+  FileBytes bytes{std::unique_ptr<std::uint8_t[]>(new (std::nothrow) std::uint8_t[size]), 0};
+  if (!bytes.data) throw Error(ErrorKind::kScene, "there is not enough memory to read it");
+  bytes.size = file.read(bytes.data.get(), size);
+  return bytes;
 }
 
 }  // namespace raytracer

@@ -3,16 +3,23 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace raytracer {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
+struct FileBytes {
+  std::unique_ptr<std::uint8_t[]> data;
+  std::size_t size = 0;
+
+  ByteSpan span() const { return {data.get(), size}; }
+};
+
 /// The whole regular file. Throws Error (kScene) with a clause that says why not, without its name; a folder,
 /// a pipe or a device is refused without waiting for it.
-std::vector<std::uint8_t> read_file_bytes(const std::string& path);
+FileBytes read_file_bytes(const std::string& path);
 
 }  // namespace raytracer

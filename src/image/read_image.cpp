@@ -113,7 +113,8 @@ void check_plausible(std::size_t raw_bytes, std::size_t file_bytes) {
 }
 
 Picture read_picture(const std::string& path) {
-  const std::vector<std::uint8_t> file = read_file_bytes(path);
+  const FileBytes bytes = read_file_bytes(path);
+  const ByteSpan file = bytes.span();
   const Kind* content = kind_of(file);
   const Kind* name = kind_named(path);
   if (content == nullptr || content->read == nullptr) throw unreadable(file, content, name);

@@ -67,10 +67,12 @@ TexelPyramid::TexelPyramid(std::shared_ptr<const Picture> picture, const TexelUs
   make_table();
   levels_.push_back(base_level());
   if (is_constant()) {
-    make_constant(bilinear(0, Vector2f(0.5f), TextureWrap::kClamp));
+    make_constant(first_texel());
     return;
   }
-  if (table_.empty() && value_of(0.5f) != 0.5f) convert_floats();
+  // A single channel of Radiance's pixels does not stand by itself.
+  const bool is_lone = is_number_ && picture_->type == TexelType::kRgbe;
+  if (table_.empty() && (is_lone || value_of(0.5f) != 0.5f)) convert_floats();
   while (levels_.back().width > 1 || levels_.back().height > 1) add_level();
 }
 
@@ -82,16 +84,15 @@ void TexelPyramid::make_table() {
   for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = value_of(static_cast<float>(i) / most);
 }
 
+std::size_t TexelPyramid::first_used() const {
+  return static_cast<std::size_t>(is_number_ ? first_channel(*picture_, use_.channel) : 0);
+}
+
 TexelPyramid::Level TexelPyramid::base_level() const {
   static constexpr std::array kFormats = {Format::kTableByte, Format::kTableShort, Format::kHalf,
                                           Format::kFloat, Format::kRgbe};
-  Level level{picture_->width, picture_->height, kFormats[static_cast<std::size_t>(picture_->type)],
-              picture_->data.get(), picture_->texel_bytes()};
-  const auto first = static_cast<std::size_t>(first_channel(*picture_, use_.channel));
-  for (std::size_t c = 0; c < 3; ++c) {
-    level.offsets[c] = channel_size(*picture_) * (is_number_ ? first : c);
-  }
-  return level;
+  return {picture_->width, picture_->height, kFormats[static_cast<std::size_t>(picture_->type)],
+          picture_->data.get() + channel_size(*picture_) * first_used(), picture_->texel_bytes()};
 }
 
 bool TexelPyramid::is_constant() const {
@@ -100,12 +101,21 @@ bool TexelPyramid::is_constant() const {
   return std::memcmp(bytes, bytes + step, picture_->bytes() - step) == 0;
 }
 
+Color3f TexelPyramid::first_texel() const {
+  Color3f color;
+  for (int c = 0; c < 3; ++c) {
+    const int channel = static_cast<int>(first_used()) + (is_number_ ? 0 : c);
+    color[c] = value_of(stored_value(*picture_, picture_->data.get(), channel));
+  }
+  return color;
+}
+
 void TexelPyramid::make_constant(const Color3f& value) {
   levels_.clear();
   owned_bytes_ = sizeof value;
   owned_.push_back(std::make_unique<std::uint8_t[]>(owned_bytes_));
   std::memcpy(owned_.back().get(), &value, sizeof value);
-  levels_.push_back({1, 1, Format::kFloat, owned_.back().get(), sizeof value, {0, 4, 8}});
+  levels_.push_back({1, 1, Format::kFloat, owned_.back().get(), sizeof value});
 }
 
 // Floats that are not the values themselves are made so once, not at every look.
@@ -118,48 +128,43 @@ void TexelPyramid::convert_floats() {
   owned_bytes_ += row * 4 * static_cast<std::size_t>(from.height);
   std::uint8_t* out = owned_.back().get();
   parallel_for(static_cast<std::size_t>(from.height), [&](std::size_t y) {
-    std::vector<float> values(row);
-    decode_row(from, static_cast<int>(y), values.data());
-    for (float& value : values) value = value_of(value);
+    std::vector<float> values;
+    const std::uint8_t* texel = picture_->row(static_cast<int>(y));
+    for (int x = 0; x < from.width; ++x, texel += picture_->texel_bytes()) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        values.push_back(value_of(stored_value(*picture_, texel, static_cast<int>(first_used() + c))));
+      }
+    }
     std::memcpy(out + 4 * row * y, values.data(), 4 * row);
   });
-  levels_.back() = {
-      from.width,     from.height,
-      Format::kFloat, out,
-      4 * channels,   is_number_ ? std::array<std::size_t, 3>{} : std::array<std::size_t, 3>{0, 4, 8}};
+  levels_.back() = {from.width, from.height, Format::kFloat, out, 4 * channels};
 }
 
-// --- looking up
-// ----------------------------------------------------------------------------------------------
+// --- looking up --------------------------------------------------------------------------------------
 
-/// Calls function(decode), decode(texel, c) being channel c of a texel of that level.
+/// Calls function(decode), decode(texel, c) being the c-th of the used channels of a texel of that level.
 template <class Function>
 auto TexelPyramid::with_decoder(const Level& level, const Function& function) const {
-  const std::array<std::size_t, 3> at = level.offsets;
+  using Texel = const std::uint8_t*;
   const float* table = table_.data();
   switch (level.format) {
     case Format::kTableByte:
-      return function([=](const std::uint8_t* texel, std::size_t c) { return table[texel[at[c]]]; });
+      return function([=](Texel texel, std::size_t c) { return table[texel[c]]; });
     case Format::kTableShort:
-      return function([=](const std::uint8_t* texel, std::size_t c) {
-        return table[load<std::uint16_t>(texel + at[c])];
-      });
+      return function([=](Texel texel, std::size_t c) { return table[load<std::uint16_t>(texel + 2 * c)]; });
     case Format::kShort:
-      return function([=](const std::uint8_t* texel, std::size_t c) {
-        return static_cast<float>(load<std::uint16_t>(texel + at[c])) * kShortStep;
+      return function([](Texel texel, std::size_t c) {
+        return static_cast<float>(load<std::uint16_t>(texel + 2 * c)) * kShortStep;
       });
     case Format::kHalf:
-      return function([=](const std::uint8_t* texel, std::size_t c) {
-        return float_from_half(load<std::uint16_t>(texel + at[c]));
-      });
+      return function(
+          [](Texel texel, std::size_t c) { return float_from_half(load<std::uint16_t>(texel + 2 * c)); });
     case Format::kRgbe:
-      return function([=](const std::uint8_t* texel, std::size_t c) {
-        return rgb_from_rgbe(texel)[static_cast<int>(at[c])];
-      });
+      return function([](Texel texel, std::size_t c) { return rgb_from_rgbe(texel)[static_cast<int>(c)]; });
     case Format::kFloat:
       break;
   }
-  return function([=](const std::uint8_t* texel, std::size_t c) { return load<float>(texel + at[c]); });
+  return function([](Texel texel, std::size_t c) { return load<float>(texel + 4 * c); });
 }
 
 namespace {
@@ -230,8 +235,7 @@ Color3f TexelPyramid::bilinear(int level, const Vector2f& uv, TextureWrap wrap) 
   return with_decoder(pixels, [&](const auto& decode) { return mix(cell, decode); });
 }
 
-// --- levels
-// --------------------------------------------------------------------------------------------------
+// --- levels ------------------------------------------------------------------------------------------
 
 template <class Decode>
 void TexelPyramid::decode_with(const Level& level, int y, float* out, const Decode& decode) const {
@@ -281,7 +285,6 @@ void TexelPyramid::add_level() {
   const std::size_t number_bytes = is_short ? 2 : 4;
   Level to{std::max(from.width / 2, 1), std::max(from.height / 2, 1),
            is_short ? Format::kShort : Format::kFloat, nullptr, channels * number_bytes};
-  for (std::size_t c = 0; c < channels; ++c) to.offsets[c] = c * number_bytes;
   const std::size_t row_bytes = to.texel_bytes * static_cast<std::size_t>(to.width);
   owned_.push_back(
       std::make_unique_for_overwrite<std::uint8_t[]>(row_bytes * static_cast<std::size_t>(to.height)));

@@ -63,9 +63,8 @@ class TexelPyramid {
   struct Level {
     int width = 0, height = 0;
     Format format = Format::kFloat;
-    const std::uint8_t* data = nullptr;
+    const std::uint8_t* data = nullptr;  // the first of the channels that are used; others follow it
     std::size_t texel_bytes = 0;
-    std::array<std::size_t, 3> offsets = {};  // of red, green and blue, in bytes
   };
   /// Where four texels lie and how they are weighted.
   struct Cell {
@@ -74,6 +73,8 @@ class TexelPyramid {
   };
 
   Level base_level() const;
+  std::size_t first_used() const;  // of the picture's channels
+  Color3f first_texel() const;
   void make_table();
   void convert_floats();
   void make_constant(const Color3f& value);
