@@ -169,20 +169,20 @@ auto TexelPyramid::with_decoder(const Level& level, const Function& function) co
 
 namespace {
 
+// std::floor is a call where the processor's own rounding may not be counted on. |x| < 2^31.
+float floor_of(float x) {
+  const auto towards_zero = static_cast<float>(static_cast<int>(x));
+  return towards_zero > x ? towards_zero - 1 : towards_zero;
+}
+
 /// To 0..1, where it is the same picture. Whatever is not a number goes to 0.
 float wrapped(float x, TextureWrap wrap) {
-  switch (wrap) {
-    case TextureWrap::kRepeat:
-      x -= std::floor(x);
-      break;
-    case TextureWrap::kMirror:
-      x -= 2 * std::floor(0.5f * x);
-      if (x > 1) x = 2 - x;
-      break;
-    case TextureWrap::kClamp:
-      break;
-  }
-  return x > 0 ? std::min(x, 1.0f) : 0.0f;
+  if (wrap == TextureWrap::kClamp) return x > 0 ? std::min(x, 1.0f) : 0.0f;
+  constexpr float kWhole = 0x1p23f;  // from here on there are no fractions
+  if (!(std::abs(x) < kWhole)) return 0;
+  if (wrap == TextureWrap::kRepeat) return std::min(x - floor_of(x), 1.0f);
+  const float there_and_back = x - 2 * floor_of(0.5f * x);
+  return there_and_back > 1 ? 2 - there_and_back : there_and_back;
 }
 
 /// The two texels of an axis between whose centres x, 0..1, lies.
@@ -193,46 +193,40 @@ struct Pair {
 
 Pair pair_at(float x, int count, bool repeats) {
   const float position = x * static_cast<float>(count) - 0.5f;
-  const float below = std::floor(position);
+  const float below = floor_of(position);
   Pair pair{static_cast<int>(below), static_cast<int>(below) + 1, position - below};
   if (pair.first < 0) pair.first = repeats ? count - 1 : 0;
   if (pair.second >= count) pair.second = repeats ? 0 : count - 1;
   return pair;
 }
 
-}  // namespace
-
-TexelPyramid::Cell TexelPyramid::cell_at(const Level& level, const Vector2f& uv, TextureWrap wrap) {
-  const bool repeats = wrap == TextureWrap::kRepeat;
-  const Pair x = pair_at(wrapped(uv.x, wrap), level.width, repeats);
-  const Pair y = pair_at(1 - wrapped(uv.y, wrap), level.height, repeats);
-  const auto at = [&](int column, int row) {
-    return level.data + (static_cast<std::size_t>(row) * static_cast<std::size_t>(level.width) +
-                         static_cast<std::size_t>(column)) *
-                            level.texel_bytes;
-  };
-  return {{at(x.first, y.first), at(x.second, y.first), at(x.first, y.second), at(x.second, y.second)},
-          x.weight,
-          y.weight};
-}
-
-// In the form a + t (b - a), which leaves equal values as they are.
+/// Channel c, the texels above and below being decoded; in the form a + t (b - a), which leaves equal values
+/// as they are.
 template <class Decode>
-Color3f TexelPyramid::mix(const Cell& cell, const Decode& decode) const {
-  const auto channel = [&](std::size_t c) {
-    const float upper_left = decode(cell.texels[0], c), lower_left = decode(cell.texels[2], c);
-    const float upper = upper_left + cell.right * (decode(cell.texels[1], c) - upper_left);
-    const float lower = lower_left + cell.right * (decode(cell.texels[3], c) - lower_left);
-    return upper + cell.below * (lower - upper);
-  };
-  if (is_number_) return Color3f(channel(0));
-  return {channel(0), channel(1), channel(2)};
+float mixed(const Decode& decode, const std::uint8_t* upper, const std::uint8_t* lower, const Pair& x,
+            float below, std::size_t step, std::size_t c) {
+  const std::size_t left = step * static_cast<std::size_t>(x.first);
+  const std::size_t right = step * static_cast<std::size_t>(x.second);
+  const float upper_left = decode(upper + left, c), lower_left = decode(lower + left, c);
+  const float above_mixed = upper_left + x.weight * (decode(upper + right, c) - upper_left);
+  const float below_mixed = lower_left + x.weight * (decode(lower + right, c) - lower_left);
+  return above_mixed + below * (below_mixed - above_mixed);
 }
+
+}  // namespace
 
 Color3f TexelPyramid::bilinear(int level, const Vector2f& uv, TextureWrap wrap) const {
   const Level& pixels = levels_[static_cast<std::size_t>(level)];
-  const Cell cell = cell_at(pixels, uv, wrap);
-  return with_decoder(pixels, [&](const auto& decode) { return mix(cell, decode); });
+  const bool repeats = wrap == TextureWrap::kRepeat;
+  const Pair x = pair_at(wrapped(uv.x, wrap), pixels.width, repeats);
+  const Pair y = pair_at(1 - wrapped(uv.y, wrap), pixels.height, repeats);
+  const std::size_t step = pixels.texel_bytes, row = step * static_cast<std::size_t>(pixels.width);
+  const std::uint8_t* upper = pixels.data + row * static_cast<std::size_t>(y.first);
+  const std::uint8_t* lower = pixels.data + row * static_cast<std::size_t>(y.second);
+  return with_decoder(pixels, [&](const auto& decode) {
+    const auto channel = [&](std::size_t c) { return mixed(decode, upper, lower, x, y.weight, step, c); };
+    return is_number_ ? Color3f(channel(0)) : Color3f(channel(0), channel(1), channel(2));
+  });
 }
 
 // --- levels ------------------------------------------------------------------------------------------
