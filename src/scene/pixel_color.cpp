@@ -34,6 +34,12 @@ Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
   return {point.offset_position, direction};
 }
 
+// With what the vertices of a mesh say.
+Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hit, const Material& material) {
+  if (!scene.has_vertex_colors() || !material.takes_vertex_colors) return material.color;
+  return material.color * scene.detail_at(ray, hit).color;
+}
+
 float mirror_share(const Material& material) { return glm::clamp(material.shininess, 0.0f, 1.0f); }
 
 // The sum over the lights that the point sees, in units of the buffers.
@@ -58,11 +64,12 @@ Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, 
   const Material& material = scene.material_of(hit);
   const float shininess = mirror_share(material);
   const ShadingPoint point = shading_point(scene, ray, hit);
+  const Color3f tint = surface_color(scene, ray, hit, material);
   Color3f color(0);
-  if (shininess < 1) color += (1 - shininess) * material.color * direct_light(scene, point, rays);
+  if (shininess < 1) color += (1 - shininess) * tint * direct_light(scene, point, rays);
   if (shininess > 0 && bounces_left > 0) {
     const Ray3f reflected = reflected_ray(ray, point);
-    color += shininess * material.color * get_pixel_color(scene, reflected, bounces_left - 1, rays);
+    color += shininess * tint * get_pixel_color(scene, reflected, bounces_left - 1, rays);
   }
   return color;
 }
@@ -116,17 +123,18 @@ void PixelColors::shade_hit(Level& level, std::uint32_t ray, const Hit& hit, Lev
   const Material& material = scene_.material_of(hit);
   const float shininess = mirror_share(material);
   const ShadingPoint point = shading_point(scene_, level.rays[ray], hit);
+  const Color3f tint = surface_color(scene_, level.rays[ray], hit, material);
   if (shininess < 1) {
     LitPoint& lit = lit_.emplace_back();
     lit.point = point;
     lit.ray = ray;
-    lit.share = (1 - shininess) * material.color;
+    lit.share = (1 - shininess) * tint;
     lit.light = 255.0f * scene_.description().ambient;
   }
   if (shininess > 0 && next != nullptr) {
     next->rays.push_back(reflected_ray(level.rays[ray], point));
     next->parent.push_back(ray);
-    next->share.push_back(shininess * material.color);
+    next->share.push_back(shininess * tint);
   }
 }
 

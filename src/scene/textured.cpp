@@ -44,9 +44,12 @@ TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const 
 }  // namespace
 
 Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface) const {
-  const TexturePoint point = texture_point(ray, surface, detail_at(ray, hit), width);
+  const SurfaceDetail detail = detail_at(ray, hit);
+  const TexturePoint point = texture_point(ray, surface, detail, width);
   static_cast<void>(point);
-  return material_of(hit);
+  Material material = material_of(hit);
+  if (material.takes_vertex_colors) material.color *= detail.color;
+  return material;
 }
 
 float Scene::alpha_at(const Ray3f& ray, const Hit& hit) const {

@@ -24,9 +24,9 @@ class Files {
   /// Takes the main scene's text.
   const SyntaxTree* add_main(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
-  /// Where a file that a scene at `from` names lies, as a canonical path. Empty where it can't be had, or is not
-  /// the scene's to read, which has then been reported at `from`; `what` it is good for is said there ("a file
-  /// to include").
+  /// Where a file that a scene at `from` names lies, as a canonical path. Empty where it can't be had, or is
+  /// not the scene's to read, which has then been reported at `from`; `what` it is good for is said there ("a
+  /// file to include").
   std::string find(const std::string& file, const Place& from, std::string_view what,
                    Diagnostics& diagnostics) const;
   /// Throws Error (kScene) where a file that another file names (a mesh its materials) is not the scene's to
