@@ -39,6 +39,9 @@ std::vector<Vector3f> read_binary(std::string_view file) {
   const std::size_t facets = load_little_endian(file.data() + kNameSize);
   const std::size_t left = file.size() - kHeaderSize;
   if (facets > left / kFacetSize) {
+    if (file.substr(0, kHeaderSize).find('\0') == std::string_view::npos) {  // a number that large is text
+      throw Failure{file.data(), "the file begins neither with 'solid' nor as a binary STL file does"};
+    }
     throw Failure{
         file.data() + kNameSize,
         fmt::format("the header promises {} triangles of 50 bytes, but only {} bytes follow", facets, left)};
