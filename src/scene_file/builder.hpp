@@ -100,7 +100,7 @@ class BlockContext {
   }
   void add_light(const Light& light);
   /// Adds the mesh in a file that `property` names.
-  void add_mesh_file(std::string_view property, const std::string& file, const MeshOptions& options);
+  void add_mesh_file(std::string_view property, const std::string& file, MeshOptions options);
   void build_children();
   std::uint32_t add_material(const Material& material);
 

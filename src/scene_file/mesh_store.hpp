@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "meshes/mesh_data.hpp"
@@ -31,7 +32,9 @@ struct MeshFile {
   std::string problem;             ///< why it can't be read; empty if it can
   std::vector<MeshData::NamedMaterial> materials;
   std::optional<SceneHash> hash;  ///< of what was read
-  /// In its own space, made when it stands in more than one place, or moves. The first of their materials
+  /// With its options, in its own space; made when it stands in more than one place, or moves.
+  std::shared_ptr<const MeshData> own;
+  /// The same as shapes. The first of their materials
   /// gives way to the instance's; of [1] it is the material of all.
   std::array<std::shared_ptr<const SharedShapes>, 2> shared;
 };
@@ -67,7 +70,8 @@ class MeshStore {
   void load(MeshFile& mesh, const Place& place);
   bool need_data(MeshFile& mesh, const Place& place);
   const std::vector<std::uint32_t>& materials_of(const MeshFile& mesh, std::vector<Material>& materials);
-  std::shared_ptr<const SharedShapes> share(MeshFile& mesh, bool takes_all, std::shared_ptr<MeshData> data);
+  std::shared_ptr<const SharedShapes> share(const MeshFile& mesh, bool takes_all, const Material& own);
+  bool add_instance(const MeshUse& use, const Material& material, bool keeps_data, ShapeStore& store);
   void place(MeshFile& mesh, const std::vector<const MeshUse*>& uses, std::vector<Material>& materials,
              ShapeStore& store);
 
@@ -77,6 +81,8 @@ class MeshStore {
   std::vector<MeshUse> uses_;
   // Of each mesh the scene's numbers of its materials.
   std::unordered_map<const MeshFile*, std::vector<std::uint32_t>> materials_;
+  // Meshes that shine, by mesh and material: lights are looked for among the shared materials.
+  std::map<std::pair<const MeshFile*, std::uint32_t>, std::shared_ptr<const SharedShapes>> shining_;
 };
 
 /// What an MTL file's words mean for a material.
