@@ -152,9 +152,8 @@ void MeshStore::add_copy(const MeshUse& use, std::vector<Material>& materials, S
   add_parts(data, use.material, materials_of(*use.mesh, materials), use.takes_all, list);
 }
 
-std::shared_ptr<const SharedShapes> MeshStore::share(const MeshFile& mesh, bool takes_all,
-                                                     const Material& own) {
-  std::vector<Material> materials = {own};
+std::shared_ptr<const SharedShapes> MeshStore::share(const MeshFile& mesh, bool takes_all) {
+  std::vector<Material> materials(1);
   std::vector<std::uint32_t> of_file;
   for (const MeshData::NamedMaterial& said : mesh.materials) {
     of_file.push_back(static_cast<std::uint32_t>(materials.size()));
@@ -166,8 +165,7 @@ std::shared_ptr<const SharedShapes> MeshStore::share(const MeshFile& mesh, bool 
                                               std::move(materials));
 }
 
-bool MeshStore::add_instance(const MeshUse& use, const Material& material, bool keeps_data,
-                             ShapeStore& store) {
+bool MeshStore::add_instance(const MeshUse& use, bool keeps_data, ShapeStore& store) {
   MeshFile& mesh = *use.mesh;
   if (mesh.own == nullptr) {
     if (!need_data(mesh, use.place)) return false;
@@ -176,15 +174,9 @@ bool MeshStore::add_instance(const MeshUse& use, const Material& material, bool 
     mesh.own = own;
   }
   const bool takes_all = use.takes_all && !mesh.materials.empty();
-  if (material.is_emissive()) {
-    auto& shared = shining_[{&mesh, 2 * use.material + (takes_all ? 1 : 0)}];
-    if (shared == nullptr) shared = share(mesh, takes_all, material);
-    store.add_instance(shared, use.to_world);
-  } else {
-    auto& shared = mesh.shared[takes_all];
-    if (shared == nullptr) shared = share(mesh, takes_all, Material{});
-    store.add_instance(shared, use.to_world, use.material);
-  }
+  auto& shared = mesh.shared[takes_all];
+  if (shared == nullptr) shared = share(mesh, takes_all);
+  store.add_instance(shared, use.to_world, use.material);
   return true;
 }
 
@@ -197,7 +189,7 @@ void MeshStore::place(MeshFile& mesh, const std::vector<const MeshUse*>& uses,
       std::ranges::count_if(uses, is_still) == 1 ? *std::ranges::find_if(uses, is_still) : nullptr;
   for (const MeshUse* use : uses) {
     if (use == alone) continue;
-    if (!add_instance(*use, materials[use->material], alone != nullptr, store)) return;
+    if (!add_instance(*use, alone != nullptr, store)) return;
   }
   if (alone != nullptr && !store.has_still()) {
     if (!need_data(mesh, alone->place)) return;

@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "meshes/mesh_data.hpp"
@@ -70,8 +69,8 @@ class MeshStore {
   void load(MeshFile& mesh, const Place& place);
   bool need_data(MeshFile& mesh, const Place& place);
   const std::vector<std::uint32_t>& materials_of(const MeshFile& mesh, std::vector<Material>& materials);
-  std::shared_ptr<const SharedShapes> share(const MeshFile& mesh, bool takes_all, const Material& own);
-  bool add_instance(const MeshUse& use, const Material& material, bool keeps_data, ShapeStore& store);
+  static std::shared_ptr<const SharedShapes> share(const MeshFile& mesh, bool takes_all);
+  bool add_instance(const MeshUse& use, bool keeps_data, ShapeStore& store);
   void place(MeshFile& mesh, const std::vector<const MeshUse*>& uses, std::vector<Material>& materials,
              ShapeStore& store);
 
@@ -81,8 +80,6 @@ class MeshStore {
   std::vector<MeshUse> uses_;
   // Of each mesh the scene's numbers of its materials.
   std::unordered_map<const MeshFile*, std::vector<std::uint32_t>> materials_;
-  // Meshes that shine, by mesh and material: lights are looked for among the shared materials.
-  std::map<std::pair<const MeshFile*, std::uint32_t>, std::shared_ptr<const SharedShapes>> shining_;
 };
 
 /// What an MTL file's words mean for a material.

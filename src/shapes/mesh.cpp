@@ -6,6 +6,7 @@
 #include "core/numeric.hpp"
 #include "raytracer/error.hpp"
 #include "shapes/checks.hpp"
+#include "shapes/part_sampling.hpp"
 #include "shapes/triangle_hit.hpp"
 #include "shapes/triangle_sampling.hpp"
 
@@ -105,8 +106,6 @@ SurfacePoint TriangleMesh::surface_at(const Ray3f& ray, const Hit& hit) const {
   const Vector3f &a = data_->positions[t[0]], &b = data_->positions[t[1]], &c = data_->positions[t[2]];
   const Vector3f extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
   point.position_error = error_bound(point.position, point.normal, extent, static_cast<float>(twice_area));
-  point.uv = {hit.u, hit.v};
-  if (!data_->uvs.empty()) point.uv = weights.mix(data_->uvs[t[0]], data_->uvs[t[1]], data_->uvs[t[2]]);
   if (data_->normals.empty()) return point;
 
   const std::array<Vector3d, 3> n = {Vector3d(data_->normals[t[0]]), Vector3d(data_->normals[t[1]]),
@@ -167,18 +166,17 @@ bool TriangleMesh::sample_part(std::uint32_t part, const Vector3f& from, const V
   hit.u = static_cast<float>(weights.x);
   hit.v = static_cast<float>(weights.y);
   const SurfacePoint point = surface_at({from, Vector3f(a) - from}, hit);
-  sample.position = point.position;
-  sample.position_error = point.position_error;
-  sample.normal = point.normal;
-  sample.pdf = static_cast<float>(seen.pdf(a + weights.x * ab + weights.y * ac));
-  return sample.pdf > 0 && std::isfinite(sample.pdf);
+  sample.u = hit.u;
+  sample.v = hit.v;
+  return shapes::set_sample(point, shapes::usable_density(seen.pdf(a + weights.x * ab + weights.y * ac)),
+                            sample);
 }
 
 float TriangleMesh::part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const {
   const Triangle& t = triangle(part);
   const Vector3d a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
   const shapes::SeenTriangle seen(a, b, c, glm::normalize(glm::cross(b - a, c - a)), Vector3d(from));
-  return seen.is_seen() ? static_cast<float>(seen.pdf(Vector3d(point.position))) : 0;
+  return seen.is_seen() ? shapes::usable_density(seen.pdf(Vector3d(point.position))) : 0;
 }
 
 }  // namespace raytracer
