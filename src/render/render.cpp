@@ -92,7 +92,9 @@ class TileRenderer {
     const Vector2f within = place_in_pixel(x, y, sample);
     const double across = (x + static_cast<double>(within.x)) / image_.width;
     const double down = (y + static_cast<double>(within.y)) / image_.height;
-    return scene_.camera().ray_through(across, down);
+    const Camera& camera = scene_.camera();
+    return camera.has_lens() ? camera.ray_through(across, down, place_on_lens(x, y, sample))
+                             : camera.ray_through(across, down);
   }
 
   // (0, 0) is the pixel's upper left corner.
@@ -100,6 +102,14 @@ class TileRenderer {
     if (settings_.samples == 1) return Vector2f(0.5f);
     const auto number = static_cast<std::uint32_t>(image_.index(x, y));
     return sobol_point(static_cast<std::uint32_t>(sample), hash_bits(number ^ hash_bits(settings_.seed)));
+  }
+
+  // The same points in an order of their own, so that no place in the pixel belongs to a place on the lens.
+  Vector2f place_on_lens(int x, int y, int sample) const {
+    if (settings_.samples == 1) return Vector2f(0.5f);
+    const auto number = static_cast<std::uint32_t>(image_.index(x, y));
+    const std::uint32_t seed = hash_bits(number ^ hash_bits(settings_.seed ^ 0x6C656E73U));
+    return sobol_point(owen_scramble(static_cast<std::uint32_t>(sample), seed), hash_bits(seed));
   }
 
   const Scene& scene_;
