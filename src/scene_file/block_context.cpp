@@ -43,7 +43,8 @@ void BlockContext::report_bad_shape(std::string_view problem) {
 // Notes a property as given; false where it was given before, which is an error unless it places the block.
 bool BlockContext::accept(const PropertyRow& row, const Place& place) {
   const Given* first = given(row.name);
-  const bool repeatable = is_placing(row) && row.name != "pivot" && row.name != "matrix";
+  const bool repeatable =
+      row.is_repeatable || (is_placing(row) && row.name != "pivot" && row.name != "matrix");
   if (first != nullptr && !repeatable) {
     builder_.diagnostics_.error(place, fmt::format("'{}' is given twice", row.name), {},
                                 {{first->place, "first given here"}});
@@ -126,11 +127,31 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
     return false;
   }
   if (!accept(*row, place(property.whole()))) return false;
-  const auto argument = read_argument(*row, property, *around_.source, around_.frame->values,
-                                      builder_.evaluator_, builder_.diagnostics_);
+  if (row->store_texture != nullptr && parameters_ == nullptr) {
+    if (const auto is_sound = fill_texture_item(*row, property, input)) return *is_sound;
+  }
+  if (property.body != nullptr) {
+    builder_.diagnostics_.error(place(property.body->header()),
+                                fmt::format("'{}' takes {}, found a block", row->name, describe_type(*row)),
+                                fmt::format("{} {}", row->name, example_value(*row)));
+    return false;
+  }
+  auto argument = read_argument(*row, property, *around_.source, around_.frame->values, builder_.evaluator_,
+                                builder_.diagnostics_);
   if (!argument) return false;
   depends_on_time_ = depends_on_time_ || argument->depends_on_time;
-  if (SceneHasher* hasher = builder_.hasher()) hasher->add(*row, *argument);
+  if (row->type == PropertyType::kFile) {
+    const auto path =
+        builder_.files_.find(argument->text, place(property.values.front().span), builder_.diagnostics_);
+    if (!path) return false;
+    argument->text = *path;
+  }
+  if (SceneHasher* hasher = builder_.hasher()) {
+    hasher->add(*row, *argument);
+    if (row->type == PropertyType::kFile) {
+      hasher->add(row->name, builder_.files_.content_hash(argument->text));
+    }
+  }
   if (row->type == PropertyType::kMaterial) {
     material_ = builder_.find_material(argument->text, place(property.values.front().span), around_);
     note_material();
@@ -140,10 +161,18 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
   }
   const bool is_parameter = parameters_ != nullptr && !is_placing(*row);
   if (SceneRecorder* recorder = builder_.recorder(); recorder && !is_parameter)
-    recorder->add(*row, *argument);
+    record(*recorder, *row, *argument);
   if (is_placing(*row)) return apply_placing(*row, *argument, place(property.whole()));
   store(*row, *argument, input);
   return true;
+}
+
+// What writes the scene down gets a file's name as the main scene would say it.
+void BlockContext::record(SceneRecorder& recorder, const PropertyRow& row, const Argument& argument) {
+  if (row.type != PropertyType::kFile) return recorder.add(row, argument);
+  Argument relative = argument;
+  relative.text = builder_.files_.relative_to_main(argument.text);
+  recorder.add(row, relative);
 }
 
 // What is made of a material that changes with time changes with it.
@@ -152,7 +181,7 @@ void BlockContext::note_material() {
 }
 
 // A block inside this one: a material in place, a child, or a mistake.
-bool BlockContext::fill_block(const BlockNode& block) {
+bool BlockContext::fill_block(const BlockNode& block, void* input) {
   const std::string_view word = around_.source->text(block.kind);
   const PropertyRow* row = find_property(row_, word);
   if (row != nullptr && row->type == PropertyType::kMaterial && block.words.empty()) {
@@ -160,6 +189,9 @@ bool BlockContext::fill_block(const BlockNode& block) {
     material_ = builder_.build_inline_material(block, around_);
     note_material();
     return material_.has_value();
+  }
+  if (row != nullptr && row->store_texture != nullptr && block.words.size() == 1 && parameters_ == nullptr) {
+    return accept(*row, place(block.header())) && fill_texture_block(*row, block, input);
   }
   if (row != nullptr && (row->type != PropertyType::kMaterial || !row_.has_children)) {
     const bool names_material = row->type == PropertyType::kMaterial;
@@ -202,7 +234,7 @@ bool BlockContext::fill_items(void* input) {
     if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
       sound = fill_item(**property, input) && sound;
     } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
-      sound = fill_block(**block) && sound;
+      sound = fill_block(**block, input) && sound;
     } else if (const auto* let = std::get_if<const LetNode*>(&item)) {
       builder_.build_let(**let, around_, let_base_, false);
     } else if (!row_.has_children && node_.is_closed) {

@@ -182,7 +182,7 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
     return i < block.words.size() ? around.source->text(block.words[i]) : std::string_view();
   };
   const KindRow* plain = find_kind(word);
-  if (plain == nullptr) {
+  if (plain == nullptr && (!may_have_variant(word) || block.words.empty())) {
     report_unknown_kind(block, around);
     return nullptr;
   }
@@ -198,7 +198,10 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
     if (row.name == word && !row.variant.empty()) variants.push_back(row.variant);
   }
   const bool is_to_come = word_at(0) == "area";
-  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty() && !is_to_come) return plain;
+  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty() && !is_to_come &&
+      plain != nullptr) {
+    return plain;
+  }
   report_unknown_variant(block, around);
   return nullptr;
 }
@@ -242,6 +245,7 @@ void Builder::build_block(const BlockNode& block, const Surroundings& around) {
   const KindRow* row = resolve_kind(block, around, name);
   if (row == nullptr || !check_standing(*row, block, around)) return;
   if (row->block_class == BlockClass::kMaterial) return build_material(*row, block, name, around);
+  if (row->block_class == BlockClass::kTexture) return build_named_texture(*row, block, name, around);
   register_name(*row, name, {around.source, block.header()}, around);
   const SceneRecorder::Block recorded(recorder(), *row, name);
   BlockContext context(*this, *row, block, around, name);
@@ -304,7 +308,9 @@ std::optional<std::uint32_t> Builder::find_material(std::string_view name, const
   }
   std::vector<std::string_view> known;
   for (std::size_t i = 0; i < materials_.height(); ++i) {
-    if (around.frame->materials.shows(i)) known.push_back(files_.names().text(materials_.at(i).name));
+    const std::string_view other = files_.names().text(materials_.at(i).name);
+    const bool is_texture = other.find(' ') != std::string_view::npos;
+    if (!is_texture && around.frame->materials.shows(i)) known.push_back(other);
   }
   const std::string_view nearest = nearest_word(name, known);
   const bool is_color = evaluator_.look_up(files_.names().id_of(name), around.frame->values).is_vector();

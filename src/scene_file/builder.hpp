@@ -20,6 +20,7 @@
 #include "scene_file/schema.hpp"
 #include "scene_file/shape_store.hpp"
 #include "scene_file/syntax.hpp"
+#include "textures/texel_pyramid.hpp"
 
 namespace raytracer::scene_file {
 
@@ -70,6 +71,13 @@ struct Surroundings {
   bool is_unclosed = false;  ///< the block around lacks its '}': what stands in it may belong elsewhere
 };
 
+/// A texture of the scene.
+struct BuiltTexture {
+  TexturePointer texture;
+  bool depends_on_time = false;
+  std::string json;  ///< as the recorder writes it; empty unless it listens
+};
+
 /// One block on its way to become real. The rows' build functions see the builder through it.
 class BlockContext {
  public:
@@ -88,6 +96,9 @@ class BlockContext {
   /// From the block's own space to the world; `spot` is its own middle.
   Transform placed(const Vector3d& spot) const { return around_.to_world * placing_.about(spot); }
 
+  /// Likewise, whatever stands around it: textures lie in the world.
+  Transform own_placing() const { return placing_.about(Vector3d(0)); }
+
   /// Adds what `make()` returns with the block's material; an Error it throws becomes a message at the block.
   template <class Make>
   void add_shape(const Make& make) {
@@ -101,6 +112,14 @@ class BlockContext {
   void build_children();
   std::uint32_t add_material(const Material& material);
 
+  /// The block is a texture: this one.
+  void set_texture(TexturePointer texture);
+  /// What the values of the picture in the file mean where this block stands.
+  TextureMeaning texture_meaning() const;
+  /// Null where the picture can't be had, which has then been reported at `property`.
+  std::shared_ptr<const TexelPyramid> pyramid(std::string_view property, const std::string& path,
+                                              const TexelUse& use);
+
  private:
   friend class Builder;
   friend bool fill(BlockContext& context, void* input);
@@ -111,7 +130,16 @@ class BlockContext {
   void report_bad_shape(std::string_view problem);
   bool fill_items(void* input);
   bool fill_item(const PropertyNode& property, void* input);
-  bool fill_block(const BlockNode& block);
+  bool fill_block(const BlockNode& block, void* input);
+  /// Nothing where the property has no texture but a value like any other.
+  std::optional<bool> fill_texture_item(const PropertyRow& row, const PropertyNode& property, void* input);
+  bool fill_texture_block(const PropertyRow& row, const BlockNode& block, void* input);
+  bool fill_texture_file(const PropertyRow& row, const PropertyNode& property, void* input);
+  bool fill_expression(const PropertyRow& row, const PropertyNode& property, void* input);
+  const Expression* expression_at_point(const PropertyNode& property);
+  bool store_texture(const PropertyRow& row, const BuiltTexture& texture, void* input);
+  const KindRow* find_texture_row(Span word);
+  void record(SceneRecorder& recorder, const PropertyRow& row, const Argument& argument);
   void note_material();
   bool check_required();
   bool accept(const PropertyRow& row, const Place& place);
@@ -243,6 +271,12 @@ class Builder {
                      const Surroundings& around);
   std::optional<std::uint32_t> find_material(std::string_view name, const Place& place,
                                              const Surroundings& around);
+  TextureMeaning color_meaning() const;
+  std::optional<BuiltTexture> build_texture(const KindRow& row, const BlockNode& block, std::string_view name,
+                                            const Surroundings& around);
+  void build_named_texture(const KindRow& row, const BlockNode& block, std::string_view name,
+                           const Surroundings& around);
+  const BuiltTexture* find_texture(std::string_view name, const Surroundings& around);
   const BlockNode* find_later_material(std::string_view name, const Place& place) const;
   std::optional<std::uint32_t> build_inline_material(const BlockNode& block, const Surroundings& around);
 
@@ -261,6 +295,7 @@ class Builder {
   SceneDraft draft_;
   SceneHasher* hasher_ = nullptr;
   SceneRecorder* recorder_ = nullptr;
+  Method method_ = Method::kClassic;
   ShapeStore store_;
   UseCounter uses_;
   std::vector<MaterialUse> material_uses_;
@@ -275,6 +310,9 @@ class Builder {
   std::uint64_t shapes_made_ = 0, lights_made_ = 0;
   bool halted_ = false;
   std::optional<std::uint32_t> last_material_;
+  TexturePointer last_texture_;
+  std::vector<BuiltTexture> named_textures_;  // their names are among the materials': "texture oak"
+  TextureMeaning texture_meaning_ = TextureMeaning::kDisplay;
 };
 
 }  // namespace raytracer::scene_file

@@ -23,7 +23,6 @@ struct CameraDraft {
   double shutter = 0;                                       ///< the share of a frame's time that it is open
 };
 
-
 struct RenderDraft {
   Method method = Method::kClassic;
   int samples = 1;

@@ -8,8 +8,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
+#include "core/hash.hpp"
 #include "raytracer/error.hpp"
 #include "scene_file/json_scene.hpp"
 #include "scene_file/parser.hpp"
@@ -112,20 +114,62 @@ const SyntaxTree* Files::add_main(std::string name, std::string path, std::strin
   return tree;
 }
 
-const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {
+// The canonical path, whether the file is there or not, but allowed.
+std::optional<std::string> Files::locate(const std::string& file, const Place& from,
+                                         Diagnostics& diagnostics) {
   const fs::path folder = fs::path(from.source->path()).parent_path();
   const std::string path = canonical((folder / file).string());
   if (path.empty()) {
     diagnostics.error(from, "this can't be the name of a file", "it is too long, or can't be looked up");
-    return nullptr;
+    return std::nullopt;
   }
+  if (by_path_.contains(path) || is_allowed(path)) return path;
+  diagnostics.error(from, fmt::format("'{}' lies outside of the scene's folder", file),
+                    fmt::format("--allow-path {} allows it", fs::path(path).parent_path().string()));
+  return std::nullopt;
+}
+
+std::optional<std::string> Files::find(const std::string& file, const Place& from, Diagnostics& diagnostics) {
+  const auto path = locate(file, from, diagnostics);
+  if (!path || found_.contains(*path)) return path;
+  std::error_code status_error;
+  const fs::file_status status = fs::status(*path, status_error);
+  if (!fs::exists(status)) {
+    diagnostics.error(from, fmt::format("there is no file '{}'", file), fmt::format("looked for {}", *path));
+    return std::nullopt;
+  }
+  if (!fs::is_regular_file(status)) {
+    diagnostics.error(from, fmt::format("'{}' is not a file to read", file),
+                      fs::is_directory(status) ? "it is a folder" : "it is a device or a pipe");
+    return std::nullopt;
+  }
+  found_.insert(*path);
+  return path;
+}
+
+const SceneHash& Files::content_hash(const std::string& path) {
+  const auto [entry, is_new] = hashes_.try_emplace(path);
+  if (!is_new) return entry->second;
+  Hasher hasher;
+  std::ifstream file(path, std::ios::binary);
+  std::string chunk(std::size_t{1} << 20U, '\0');
+  while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || file.gcount() > 0) {
+    hasher.add(std::string_view(chunk).substr(0, static_cast<std::size_t>(file.gcount())));
+  }
+  return entry->second = hasher.value();
+}
+
+std::string Files::relative_to_main(const std::string& path) const {
+  const fs::path relative = fs::path(path).lexically_relative(allowed_folders_.front());
+  return relative.empty() ? path : relative.string();
+}
+
+const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {
+  const auto located = locate(file, from, diagnostics);
+  if (!located) return nullptr;
+  const std::string& path = *located;
   const auto known = by_path_.find(path);
   if (known != by_path_.end()) return known->second;
-  if (!is_allowed(path)) {
-    diagnostics.error(from, fmt::format("'{}' lies outside of the scene's folder", file),
-                      fmt::format("--allow-path {} allows it", fs::path(path).parent_path().string()));
-    return nullptr;
-  }
   std::error_code status_error;
   const fs::file_status status = fs::status(path, status_error);
   if (!fs::exists(status)) {
@@ -179,6 +223,7 @@ std::vector<std::string> Files::read_paths() const {
   for (const File& file : files_) {
     if (!file.source->path().empty()) paths.push_back(file.source->path());
   }
+  paths.insert(paths.end(), found_.begin(), found_.end());
   return paths;
 }
 

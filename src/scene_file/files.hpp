@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -10,6 +12,7 @@
 #include "scene_file/diagnostics.hpp"
 #include "scene_file/source.hpp"
 #include "scene_file/syntax.hpp"
+#include "textures/picture_cache.hpp"
 
 namespace raytracer::scene_file {
 
@@ -28,6 +31,17 @@ class Files {
   /// had, which has then been reported at `from`.
   const SyntaxTree* include(const std::string& file, const Place& from, Diagnostics& diagnostics);
 
+  /// The canonical path of a file that a scene at `from` names. Nothing where it can't be had, which has then
+  /// been reported at `from`.
+  std::optional<std::string> find(const std::string& file, const Place& from, Diagnostics& diagnostics);
+
+  /// All pictures of the scene, each read once.
+  PictureCache& pictures() { return pictures_; }
+  /// A hash of a file's content, for a file that find() has found.
+  const SceneHash& content_hash(const std::string& path);
+  /// A canonical path as a scene in the main scene's folder would write it.
+  std::string relative_to_main(const std::string& path) const;
+
   /// The tree of a source of this scene.
   const SyntaxTree* tree_of(const Source& source) const;
 
@@ -43,12 +57,16 @@ class Files {
   };
 
   bool is_allowed(const std::string& canonical_path) const;
+  std::optional<std::string> locate(const std::string& file, const Place& from, Diagnostics& diagnostics);
   const SyntaxTree* add(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
   std::vector<std::string> allowed_folders_;
   Names names_;
   std::vector<File> files_;
   std::unordered_map<std::string, const SyntaxTree*> by_path_;
+  std::set<std::string> found_;  // what is no text
+  std::unordered_map<std::string, SceneHash> hashes_;
+  PictureCache pictures_;
 };
 
 /// The content of a file, or of standard input for "-". Throws Error (kFile) with the reason.

@@ -4,7 +4,7 @@ namespace raytracer::scene_file {
 namespace {
 
 // What stands between the properties, so that no two scenes make the same sequence.
-constexpr std::uint64_t kBegin = 1, kEnd = 2, kProperty = 3;
+constexpr std::uint64_t kBegin = 1, kEnd = 2, kProperty = 3, kContent = 4;
 
 // More frames of the same film leave those that are there as they are.
 bool goes_into_pixels(const KindRow& kind) { return kind.name != "animation"; }
@@ -30,8 +30,27 @@ void SceneHasher::add(const PropertyRow& property, const Argument& argument) {
   hasher_.add(kProperty);
   hasher_.add(property.name);
   for (const double number : argument.numbers) hasher_.add(number);
-  hasher_.add(argument.text);
+  if (property.type != PropertyType::kFile) hasher_.add(argument.text);  // of a file the content counts
   hasher_.add(std::uint64_t{argument.index} << 1U | (argument.is_display ? 1U : 0U));
+}
+
+void SceneHasher::add(std::string_view name, const SceneHash& content) {
+  if (!is_seen_) return;
+  hasher_.add(kContent);
+  hasher_.add(name);
+  for (const std::uint64_t word : content) hasher_.add(word);
+}
+
+void SceneHasher::number_texture(const void* texture) {
+  texture_numbers_[texture] = texture_numbers_.size() + 1;
+}
+
+void SceneHasher::add_texture(std::string_view property, const void* texture) {
+  if (!is_seen_) return;
+  hasher_.add(kContent);
+  hasher_.add(property);
+  const auto known = texture_numbers_.find(texture);
+  hasher_.add(known == texture_numbers_.end() ? 0 : known->second);
 }
 
 void SceneHasher::end_block(const std::optional<std::uint32_t>& material) {
