@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +17,7 @@
 namespace raytracer {
 
 class Accelerator;
+class LightSet;
 
 /// How many rays a scene takes at once.
 inline constexpr std::size_t kMostRays = 16;
@@ -112,6 +114,16 @@ class Scene {
     if (hit.instance == kNoInstance) return description_.materials[description_.material_of[hit.shape]];
     return description_.shared[description_.instances[hit.instance].shared]->material_of(hit.shape);
   }
+  /// Its material with the values that its textures have there; `width` is how much of the surface around the
+  /// hit, across the ray and in scene units, may be averaged over. The surface's shading normal follows the
+  /// material's normal map or bumps.
+  Material textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface) const;
+  /// The share of rays for which the surface is there.
+  float alpha_at(const Ray3f& ray, const Hit& hit) const;
+
+  /// All that shines; gathered when it is first asked for.
+  const LightSet& lights() const;
+
   const SceneDescription& description() const { return description_; }
   const Camera& camera() const { return description_.camera; }
 
@@ -121,6 +133,8 @@ class Scene {
 
   SceneDescription description_;
   std::unique_ptr<Accelerator> accelerator_;
+  mutable std::once_flag lights_gathered_;
+  mutable std::unique_ptr<const LightSet> lights_;
 };
 
 }  // namespace raytracer

@@ -29,6 +29,10 @@ struct SurfacePoint {
   Vector3f normal{0, 1, 0};          ///< geometric, unit length; outwards on closed shapes
   Vector3f shading_normal{0, 1, 0};  ///< unit length, same side as `normal`; equal to it on exact shapes
   Vector2f uv{0};
+  /// From `position` to where rays to lights start that leave on the side from which the surface was seen; the
+  /// step of position_error comes on top. A smooth mesh would else be shadowed by its own facets. 0 on exact
+  /// shapes.
+  Vector3f shadow_offset{0};
 };
 
 /// What only textures, brushed metals and coloured meshes need to know of a point; world space.

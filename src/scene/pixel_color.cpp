@@ -10,7 +10,9 @@ namespace {
 inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hit& hit) {
   const SurfacePoint surface = scene.surface_at(ray, hit);
   ShadingPoint point;
-  point.normal = glm::dot(surface.normal, ray.direction) > 0 ? -surface.normal : surface.normal;
+  const bool is_back = glm::dot(surface.normal, ray.direction) > 0;
+  point.normal = is_back ? -surface.normal : surface.normal;
+  point.shading_normal = is_back ? -surface.shading_normal : surface.shading_normal;
   if (const auto& epsilon = scene.description().epsilon) {
     // The paper's way: the point as the ray's equation gives it, its rounding error included.
     point.position = ray.at(hit.t);
@@ -19,11 +21,17 @@ inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hi
     point.position = surface.position;
     point.offset_position = point.position + surface.position_error * point.normal;
   }
+  point.shadow_position = point.offset_position + surface.shadow_offset;
   return point;
 }
 
+// A mirror that is curved by its shading normals alone may send a ray into itself: it then goes along the
+// surface.
 Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
-  return {point.offset_position, glm::reflect(ray.direction, point.normal)};
+  Vector3f direction = glm::reflect(ray.direction, point.shading_normal);
+  const float away = glm::dot(direction, point.normal);
+  if (away < 0) direction -= 1.001f * away * point.normal;
+  return {point.offset_position, direction};
 }
 
 float mirror_share(const Material& material) { return glm::clamp(material.shininess, 0.0f, 1.0f); }
@@ -32,7 +40,8 @@ float mirror_share(const Material& material) { return glm::clamp(material.shinin
 Color3f direct_light(const Scene& scene, const ShadingPoint& point, std::uint64_t& rays) {
   Color3f sum = 255.0f * scene.description().ambient;
   for (const Light& light : scene.description().lights) {
-    const Illumination arriving = illuminate(light, point.position, point.normal, point.offset_position);
+    const Illumination arriving =
+        illuminate(light, point.position, point.shading_normal, point.shadow_position);
     if (arriving.color == Color3f(0)) continue;
     ++rays;
     if (!scene.is_occluded(arriving.shadow_ray)) sum += arriving.color;
@@ -144,7 +153,8 @@ void PixelColors::add_light(const Light& light, Coherence coherence) {
   ShadowRays waiting;
   for (std::uint32_t i = 0; i < lit_.size(); ++i) {
     const ShadingPoint& point = lit_[i].point;
-    const Illumination arriving = illuminate(light, point.position, point.normal, point.offset_position);
+    const Illumination arriving =
+        illuminate(light, point.position, point.shading_normal, point.shadow_position);
     if (arriving.color == Color3f(0)) continue;
     ++rays_;
     if (coherence == Coherence::kIncoherent) {

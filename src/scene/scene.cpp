@@ -4,6 +4,7 @@
 
 #include "raytracer/error.hpp"
 #include "scene/accelerator.hpp"
+#include "scene/light_set.hpp"
 #include "scene/pixel_color.hpp"
 
 namespace raytracer {
@@ -42,6 +43,11 @@ std::uint32_t Scene::is_occluded(std::span<const Ray3f> rays, Coherence coherenc
 Color3f Scene::get_pixel_color(const Ray3f& ray, int bounces_left) const {
   std::uint64_t rays = 0;
   return raytracer::get_pixel_color(*this, ray, bounces_left, rays);
+}
+
+const LightSet& Scene::lights() const {
+  std::call_once(lights_gathered_, [this] { lights_ = std::make_unique<const LightSet>(description_); });
+  return *lights_;
 }
 
 }  // namespace raytracer

@@ -98,6 +98,7 @@ SurfacePoint Scene::instance_surface_at(const Ray3f& ray, const Hit& hit) const 
   const glm::dmat3 normals = glm::transpose(to_own);
   point.normal = Vector3f(glm::normalize(normals * Vector3d(own.normal)));
   point.shading_normal = Vector3f(glm::normalize(normals * Vector3d(own.shading_normal)));
+  point.shadow_offset = instance.linear * own.shadow_offset;
   // Besides the shape's own error: what a further ray loses whose origin Embree takes into the shapes' own
   // space in single precision (a sum of three products and a translation that is such a sum itself) by a
   // matrix that it has inverted in single precision; and twice the rounding of a position in the world.

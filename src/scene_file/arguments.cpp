@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/suggest.hpp"
 
@@ -48,6 +50,8 @@ class ArgumentReader {
         return single(ValueType::kString);
       case PropertyType::kStop:
         return stop();
+      case PropertyType::kNumbers:
+        return list();
       default:
         return numbers();
     }
@@ -131,6 +135,22 @@ class ArgumentReader {
     }
     if (is_spread() && count_ == 1) argument_.numbers[1] = argument_.numbers[2] = argument_.numbers[0];
     return sound ? std::optional(argument_) : std::nullopt;
+  }
+
+  // As numbers(), however many.
+  std::optional<Argument> list() {
+    argument_.list.reserve(property_.values.size());
+    bool sound = true;
+    for (const ValueNode& node : property_.values) {
+      const Value value = evaluator_.evaluate(node, source_, visibility_);
+      count_ = 0;
+      if (!value.is_known() || !take(node, value)) return std::nullopt;
+      for (std::size_t i = 0; i < count_; ++i) {
+        sound = sound && check_range(components_[i]);
+        argument_.list.push_back(components_[i].number);
+      }
+    }
+    return sound ? std::optional(std::move(argument_)) : std::nullopt;
   }
 
   bool check_count() {
@@ -246,6 +266,8 @@ std::size_t most_numbers(PropertyType type) {
       return 4;
     case PropertyType::kMatrix:
       return kMostNumbers;
+    case PropertyType::kNumbers:
+      return std::numeric_limits<std::size_t>::max();
     default:
       return 0;
   }

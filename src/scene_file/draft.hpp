@@ -23,13 +23,25 @@ struct CameraDraft {
   double shutter = 0;                                       ///< the share of a frame's time that it is open
 };
 
+/// `render`, as written; what was not depends on the method.
 struct RenderDraft {
   Method method = Method::kClassic;
-  int samples = 1;
-  int bounces = 8;
+  std::optional<int> samples, bounces;
+  Sampling sampling = Sampling::kBoth;
+  double clamp = 0;
   std::optional<double> epsilon;
   int seed = 0;
   ColorValue ambient{Vector3d(0)};
+  double exposure = 0;
+  Tone tone = Tone::kNone;
+  Vector3d white{1};
+  /// The properties that mean something to one method only and were given.
+  struct Word {
+    std::string_view name;
+    Method method = Method::kClassic;
+    Place place;
+  };
+  std::vector<Word> particular;
 };
 
 struct SceneDraft {
@@ -37,6 +49,7 @@ struct SceneDraft {
   std::array<int, 2> image_size{960, 540};
   std::vector<CameraDraft> cameras;
   RenderDraft render;
+  std::vector<Place> light_places;  ///< of the scene's lights, in their order
   double duration = 0, fps = 24;  ///< of `animation`
   Arena nodes;                    ///< of nodes put together while building
 };

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -114,37 +115,49 @@ const SyntaxTree* Files::add_main(std::string name, std::string path, std::strin
   return tree;
 }
 
-// The canonical path, whether the file is there or not, but allowed.
-std::optional<std::string> Files::locate(const std::string& file, const Place& from,
-                                         Diagnostics& diagnostics) {
+std::string Files::find(const std::string& file, const Place& from, std::string_view what,
+                        Diagnostics& diagnostics) const {
   const fs::path folder = fs::path(from.source->path()).parent_path();
-  const std::string path = canonical((folder / file).string());
+  std::string path = canonical((folder / file).string());
   if (path.empty()) {
     diagnostics.error(from, "this can't be the name of a file", "it is too long, or can't be looked up");
-    return std::nullopt;
+    return {};
   }
-  if (by_path_.contains(path) || is_allowed(path)) return path;
-  diagnostics.error(from, fmt::format("'{}' lies outside of the scene's folder", file),
-                    fmt::format("--allow-path {} allows it", fs::path(path).parent_path().string()));
-  return std::nullopt;
-}
-
-std::optional<std::string> Files::find(const std::string& file, const Place& from, Diagnostics& diagnostics) {
-  const auto path = locate(file, from, diagnostics);
-  if (!path || found_.contains(*path)) return path;
+  if (!is_allowed(path)) {
+    diagnostics.error(from, fmt::format("'{}' lies outside of the scene's folder", file),
+                      fmt::format("--allow-path {} allows it", fs::path(path).parent_path().string()));
+    return {};
+  }
   std::error_code status_error;
-  const fs::file_status status = fs::status(*path, status_error);
+  const fs::file_status status = fs::status(path, status_error);
   if (!fs::exists(status)) {
-    diagnostics.error(from, fmt::format("there is no file '{}'", file), fmt::format("looked for {}", *path));
-    return std::nullopt;
+    diagnostics.error(from, fmt::format("there is no file '{}'", file), fmt::format("looked for {}", path));
+    return {};
   }
   if (!fs::is_regular_file(status)) {
-    diagnostics.error(from, fmt::format("'{}' is not a file to read", file),
+    diagnostics.error(from, fmt::format("'{}' is not {}", file, what),
                       fs::is_directory(status) ? "it is a folder" : "it is a device or a pipe");
-    return std::nullopt;
+    return {};
   }
-  found_.insert(*path);
   return path;
+}
+
+void Files::require_allowed(const std::string& path) const {
+  const std::string resolved = canonical(path);
+  if (!resolved.empty() && is_allowed(resolved)) return;
+  throw Error(ErrorKind::kScene, fmt::format("'{}' lies outside of the scene's folder", path));
+}
+
+std::string Files::seen_from_main(const std::string& file, const Source& source) const {
+  const fs::path path(file);
+  if (path.is_absolute() || source.path().empty()) return file;
+  const fs::path main_folder = fs::path(files_.front().source->path()).parent_path();
+  const fs::path folder = fs::path(source.path()).parent_path().lexically_relative(main_folder);
+  return folder.empty() || folder == "." ? file : (folder / path).lexically_normal().string();
+}
+
+void Files::note_read(const std::string& path) {
+  if (std::ranges::find(other_files_, path) == other_files_.end()) other_files_.push_back(path);
 }
 
 const SceneHash& Files::content_hash(const std::string& path) {
@@ -159,28 +172,13 @@ const SceneHash& Files::content_hash(const std::string& path) {
   return entry->second = hasher.value();
 }
 
-std::string Files::relative_to_main(const std::string& path) const {
-  const fs::path relative = fs::path(path).lexically_relative(allowed_folders_.front());
-  return relative.empty() ? path : relative.string();
-}
-
 const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {
-  const auto located = locate(file, from, diagnostics);
-  if (!located) return nullptr;
-  const std::string& path = *located;
-  const auto known = by_path_.find(path);
-  if (known != by_path_.end()) return known->second;
-  std::error_code status_error;
-  const fs::file_status status = fs::status(path, status_error);
-  if (!fs::exists(status)) {
-    diagnostics.error(from, fmt::format("there is no file '{}'", file), fmt::format("looked for {}", path));
-    return nullptr;
-  }
-  if (!fs::is_regular_file(status)) {
-    diagnostics.error(from, fmt::format("'{}' is not a file to include", file),
-                      fs::is_directory(status) ? "it is a folder" : "it is a device or a pipe");
-    return nullptr;
-  }
+  const fs::path folder = fs::path(from.source->path()).parent_path();
+  // A file that has been read is there, whatever has become of it since.
+  if (const auto known = by_path_.find(canonical((folder / file).string())); known != by_path_.end())
+    return known->second;
+  const std::string path = find(file, from, "a file to include", diagnostics);
+  if (path.empty()) return nullptr;
   const std::string shown = fs::path(from.source->name()).parent_path().empty()
                                 ? file
                                 : (fs::path(from.source->name()).parent_path() / file).string();
@@ -223,7 +221,7 @@ std::vector<std::string> Files::read_paths() const {
   for (const File& file : files_) {
     if (!file.source->path().empty()) paths.push_back(file.source->path());
   }
-  paths.insert(paths.end(), found_.begin(), found_.end());
+  paths.insert(paths.end(), other_files_.begin(), other_files_.end());
   return paths;
 }
 

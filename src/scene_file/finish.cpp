@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "raytracer/error.hpp"
+#include "scene_file/method.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -128,16 +129,148 @@ void warn_of_ghosts(const CameraDraft& camera, int samples, Diagnostics& diagnos
                       "samples 16");
 }
 
+// What the settings say for either method, and what the caller says over their head.
+RenderSettings settings_of(const SceneDraft& draft, const LoadOptions& options) {
+  constexpr int kPathSamples = 64, kClassicSamples = 1, kClassicBounces = 8;
+  const RenderDraft& render = draft.render;
+  RenderSettings settings;
+  settings.width = options.width.value_or(draft.image_size[0]);
+  settings.height = options.height.value_or(draft.image_size[1]);
+  settings.method = options.method.value_or(render.method);
+  const bool is_path = settings.method == Method::kPath;
+  settings.samples =
+      options.samples.value_or(render.samples.value_or(is_path ? kPathSamples : kClassicSamples));
+  settings.bounces =
+      options.bounces.value_or(render.bounces.value_or(is_path ? kUnlimitedBounces : kClassicBounces));
+  settings.sampling = render.sampling;
+  settings.clamp_indirect = static_cast<float>(render.clamp);
+  settings.seed = options.seed.value_or(static_cast<std::uint32_t>(render.seed));
+  settings.development.is_linear = is_path;
+  if (!is_path) return settings;  // its values are what the picture shows
+  settings.development.exposure = static_cast<float>(render.exposure);
+  settings.development.tone = render.tone;
+  settings.development.white = Color3f(render.white);
+  return settings;
+}
+
+// Whoever looks at a scene by the other method for once knows that some words are for the first.
+void warn_of_other_methods_words(const RenderDraft& render, const LoadOptions& options,
+                                 Diagnostics& diagnostics) {
+  if (options.method) return;
+  for (const RenderDraft::Word& word : render.particular) {
+    if (word.method == render.method) continue;
+    const std::string_view wanted = kMethodWords[static_cast<std::size_t>(word.method)];
+    diagnostics.warning(word.place,
+                        fmt::format("'{}' is for method {} and has no effect in method {}", word.name, wanted,
+                                    kMethodWords[static_cast<std::size_t>(render.method)]),
+                        fmt::format("render {{ method {} }}", wanted));
+  }
+}
+
+bool has_shape_that_shines(const SceneDescription& scene) {
+  const auto shines = [](const Material& material) { return material.is_emissive(); };
+  if (std::ranges::any_of(scene.materials, shines) &&
+      std::ranges::any_of(scene.material_of, [&](std::uint32_t i) { return shines(scene.materials[i]); })) {
+    return true;
+  }
+  return std::ranges::any_of(scene.shared, [&](const auto& shared) {
+    for (std::uint32_t i = 0; i < shared->size(); ++i) {
+      if (shines(shared->material_of(i))) return true;
+    }
+    return false;
+  });
+}
+
+// Whether light comes from anywhere. In `path` the background shines, too.
+bool has_light(const SceneDescription& scene, Method method) {
+  if (!scene.lights.empty() || scene.sky != nullptr || has_shape_that_shines(scene)) return true;
+  return (method == Method::kPath ? scene.background : scene.ambient) != Color3f(0);
+}
+
+// --- what looks like a slip -------------------------------------------------------------------------------
+
+// Whether a finite shape encloses the point: seen from there it shows its inside in all directions. An open
+// cylinder does not, and neither does a sheet.
+bool encloses(const Shape& shape, const Vector3f& point) {
+  const Box3f box = shape.bounds();
+  const bool is_near = box.is_finite() && glm::all(glm::greaterThan(point, box.lower)) &&
+                       glm::all(glm::lessThan(point, box.upper));
+  if (!is_near) return false;
+  constexpr float kAside = 0.123f;  // edges and seams lie along the axes
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      Ray3f ray{point, Vector3f(kAside, 0.7f * kAside, -0.4f * kAside)};
+      ray.direction[axis] = side;
+      Hit hit;
+      if (!shape.is_hit(ray, hit)) return false;
+      if (glm::dot(shape.surface_at(ray, hit).normal, ray.direction) < 0) return false;
+    }
+  }
+  return true;
+}
+
+bool lets_light_out(const Material& material) {
+  return material.transmission > 0 || material.alpha < 1 ||
+         (material.textures != nullptr && (material.textures->alpha || material.textures->transmission));
+}
+
+// A lamp in an opaque ball shines into that ball alone, which is seen only from within.
+void warn_of_buried_lights(const SceneDraft& draft, Diagnostics& diagnostics) {
+  constexpr std::size_t kMostPairs = 2'000'000;  // of a light and a shape; more take too long
+  const SceneDescription& scene = draft.scene;
+  if (scene.lights.size() * scene.shapes.size() > kMostPairs) return;
+  for (std::size_t i = 0; i < std::min(scene.lights.size(), draft.light_places.size()); ++i) {
+    const Light& light = scene.lights[i];
+    if (light.kind == Light::Kind::kDirectional) continue;
+    for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
+      if (lets_light_out(scene.materials[scene.material_of[s]])) continue;
+      if (!encloses(*scene.shapes[s], light.position)) continue;
+      if (encloses(*scene.shapes[s], Vector3f(scene.camera.position()))) continue;
+      diagnostics.warning(draft.light_places[i], "the light stands inside a closed shape, which hides it",
+                          "give the shape a material with 'emission' to see it shine");
+      break;
+    }
+  }
+}
+
+void warn_of_camera_in_glass(const SceneDescription& scene, const CameraDraft& camera,
+                             const std::string& name, Diagnostics& diagnostics) {
+  for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
+    const Material& material = scene.materials[scene.material_of[s]];
+    if (material.transmission == 0 || material.thin) continue;
+    if (!encloses(*scene.shapes[s], Vector3f(camera.position))) continue;
+    constexpr const char* kMessage = "the camera stands inside a shape that lets light in";
+    constexpr const char* kHint = "it sees as an eye under water does";
+    if (camera.place.source == nullptr) return diagnostics.warning(name, kMessage, kHint);
+    return diagnostics.warning(camera.place, kMessage, kHint);
+  }
+}
+
+// Whether no light has any strength although there are some.
+void warn_of_darkness(const SceneDescription& scene, const std::string& name, Diagnostics& diagnostics) {
+  const bool is_dark =
+      std::ranges::all_of(scene.lights, [](const Light& l) { return l.lambda == Color3f(0); });
+  const bool is_lit = !is_dark || scene.sky != nullptr || scene.ambient != Color3f(0) ||
+                      scene.background != Color3f(0) || has_shape_that_shines(scene);
+  if (is_lit) return;
+  diagnostics.warning(name, "the picture will be black: no light has any strength",
+                      "light { intensity 1000 }");
+}
+
+void add_headlight(SceneDescription& scene) {
+  // Without falloff the surface nearest to the eye is white if it faces it, however far away it is.
+  Light headlight;
+  headlight.position = scene.camera.position();
+  headlight.falloff = Falloff::kNone;
+  scene.lights.push_back(headlight);
+}
+
 }  // namespace
 
 RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::string& name,
                       bool depends_on_time, Diagnostics& diagnostics) {
-  RenderSettings settings;
-  settings.width = options.width.value_or(draft.image_size[0]);
-  settings.height = options.height.value_or(draft.image_size[1]);
-  settings.samples = options.samples.value_or(draft.render.samples);
-  settings.bounces = options.bounces.value_or(draft.render.bounces);
-  settings.seed = static_cast<std::uint32_t>(draft.render.seed);
+  RenderSettings settings = settings_of(draft, options);
+  warn_of_other_methods_words(draft.render, options, diagnostics);
 
   SceneDescription& scene = draft.scene;
   if (draft.render.epsilon) scene.epsilon = static_cast<float>(*draft.render.epsilon);
@@ -156,14 +289,13 @@ RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::
     warn_of_ghosts(camera, settings.samples, diagnostics);
   }
 
-  if (scene.lights.empty() && scene.ambient == Color3f(0)) {
-    // Without falloff the surface nearest to the eye is white if it faces it, however far away it is.
-    Light headlight;
-    headlight.position = scene.camera.position();
-    headlight.falloff = Falloff::kNone;
-    scene.lights.push_back(headlight);
+  if (!has_light(scene, settings.method)) {
+    add_headlight(scene);
     diagnostics.warning(name, "the scene has no light", "one shines from the camera");
   }
+  warn_of_darkness(scene, name, diagnostics);
+  warn_of_buried_lights(draft, diagnostics);
+  warn_of_camera_in_glass(scene, camera, name, diagnostics);
   if (scene.shapes.empty() && scene.instances.empty()) {
     diagnostics.warning(name, "nothing is in view: the scene has no shapes", "sphere { }");
   } else if (!is_anything_in_view(scene)) {

@@ -1,11 +1,14 @@
 // The rows of all that is no shape: settings, lights, material, group.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "raytracer/error.hpp"
 #include "scene_file/builder.hpp"
+#include "scene_file/colors.hpp"
 #include "scene_file/kinds.hpp"
+#include "scene_file/method.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -13,7 +16,7 @@ namespace {
 constexpr std::string_view kLength = "scene units";
 constexpr std::string_view kDegrees = "degrees";
 constexpr Range kFieldOfView{0.001, 179, false};
-constexpr Range kBrightness{0, 1e24, false};  // a quadratic light for lengths in the millions is beyond 1e15
+constexpr Range kExposure{-100, 100, false};
 
 struct ImageInput {
   std::array<int, 2> size{960, 540};
@@ -78,33 +81,90 @@ void build_camera(const CameraInput& in, BlockContext& block) {
 
 struct RenderInput {
   Method method = Method::kClassic;
-  int samples = 1, bounces = 8;
+  std::optional<int> samples, bounces;
+  Sampling sampling = Sampling::kBoth;
+  double clamp = 0;
   std::optional<double> epsilon;
   int seed = 0;
   ColorValue ambient{Vector3d(0)};
+  double exposure = 0;
+  Tone tone = Tone::kNone;
+  std::optional<ColorValue> white_balance;
 };
-constexpr std::string_view kMethods[] = {"classic"};
+constexpr std::string_view kSamplings[] = {"both", "lights", "materials"};
+constexpr std::string_view kTones[] = {"none", "filmic", "agx", "aces"};
 constexpr PropertyRow kRender[] = {
-    property<&RenderInput::method>("method", "How light is computed.").one_of(kMethods),
-    property<&RenderInput::samples>("samples", "Rays per pixel; more than one smooth the edges.")
-        .within({1, 1'000'000}),
-    property<&RenderInput::bounces>("bounces", "Reflections followed; black after.").within({0, 1000}),
+    property<&RenderInput::method>("method", "How light is computed: the paper's way, or as nature does.")
+        .one_of(kMethodWords),
+    property<&RenderInput::samples>("samples", "Rays per pixel: more smooth edges, and noise in path.")
+        .within({1, 1'000'000})
+        .or_else("1; in path 64"),
+    property<&RenderInput::bounces>("bounces", "Reflections followed, black after; in path all scatterings.")
+        .within({0, 1000})
+        .or_else("8; in path without a limit"),
+    property<&RenderInput::seed>("seed", "Another seed, other sample points.").within({0, 2147483647}),
     property<&RenderInput::epsilon>("epsilon", "How far along the normal shadow and mirror rays start.")
         .in(kLength)
         .within(kNotNegative)
         .or_else("follows the rounding error"),
-    property<&RenderInput::seed>("seed", "Another seed, other sample points.").within({0, 2147483647}),
-    property<&RenderInput::ambient>("ambient", "Light from everywhere; 1 shows surfaces in their own colour.")
+    property<&RenderInput::ambient>(
+        "ambient", "Classic alone: light from everywhere; 1 shows surfaces in their own colour.")
         .within(kBrightness),
+    property<&RenderInput::sampling>("sampling",
+                                     "Path alone: what chooses the directions to look for light in.")
+        .one_of(kSamplings),
+    property<&RenderInput::clamp>(
+        "clamp", "Path alone: the most that a path adds after its first bounce; 0: no limit.")
+        .within(kBrightness),
+    property<&RenderInput::exposure>("exposure", "Path alone: brightens the picture; 1 doubles its light.")
+        .in("stops")
+        .within(kExposure),
+    property<&RenderInput::tone>("tone", "Path alone: the curve that brings bright light into the picture.")
+        .one_of(kTones),
+    property<&RenderInput::white_balance>("white_balance",
+                                          "Path alone: the light that shall look white, or its temperature.")
+        .within(kBrightness)
+        .in("or kelvin")
+        .or_else("1"),
 };
+
+// A grey would balance nothing: one number is a temperature. Nothing where it is none, which has been told.
+std::optional<Vector3d> white_of(const ColorValue& written, BlockContext& block) {
+  constexpr double kColdest = 1000, kHottest = 40000;
+  const Vector3d& c = written.rgb;
+  const bool is_grey = c.x == c.y && c.y == c.z;
+  if (!is_grey && std::min({c.x, c.y, c.z}) > 0) return c;
+  if (c == Vector3d(1)) return c;
+  if (is_grey && c.x >= kColdest && c.x <= kHottest) return black_body_color(c.x);
+  block.error("white_balance",
+              is_grey ? "'white_balance' takes a colour, or a temperature between 1000 and 40000 kelvin"
+                      : "'white_balance' takes the colour of a light, which has some of red, green and blue",
+              "white_balance 3200");
+  return std::nullopt;
+}
+
 void build_render(const RenderInput& in, BlockContext& block) {
   RenderDraft& render = block.draft().render;
+  if (in.white_balance) {
+    const std::optional<Vector3d> white = white_of(*in.white_balance, block);
+    if (!white) return;
+    render.white = *white;
+  }
   render.method = in.method;
   render.samples = in.samples;
   render.bounces = in.bounces;
+  render.sampling = in.sampling;
+  render.clamp = in.clamp;
   render.epsilon = in.epsilon;
   render.seed = in.seed;
   render.ambient = in.ambient;
+  render.exposure = in.exposure;
+  render.tone = in.tone;
+  for (const std::string_view word : {"sampling", "clamp", "exposure", "tone", "white_balance"}) {
+    if (block.is_given(word)) render.particular.push_back({word, Method::kPath, block.place_of(word)});
+  }
+  if (block.is_given("ambient"))
+    render.particular.push_back({"ambient", Method::kClassic, block.place_of("ambient")});
 }
 
 struct BackgroundInput {
@@ -132,125 +192,12 @@ void build_animation(const AnimationInput& in, BlockContext& block) {
   block.draft().fps = in.fps;
 }
 
-struct LightInput {
-  Vector3d position{0};
-  ColorValue color{Vector3d(1)};
-  double intensity = 1000;
-  Falloff falloff = Falloff::kLinear;
-  // of a spot, or of a directional light
-  std::optional<Vector3d> look_at, direction;
-  double angle = 45, soft_edge = 0;
-};
-constexpr std::string_view kFalloffs[] = {"none", "linear", "quadratic"};
-constexpr PropertyRow kLightPosition =
-    property<&LightInput::position>("position", "Where it stands.").in(kLength);
-constexpr PropertyRow kLightColor =
-    property<&LightInput::color>("color", "The colour of its light.").within(kBrightness);
-constexpr PropertyRow kLightIntensity =
-    property<&LightInput::intensity>("intensity",
-                                     "Its strength; 255 shows white as white at distance 1, 2550 at 10.")
-        .within(kBrightness);
-constexpr PropertyRow kLightFalloff =
-    property<&LightInput::falloff>("falloff", "How it fades with distance d: 1, 1/d or 1/d^2.")
-        .one_of(kFalloffs);
-constexpr PropertyRow kLightDirection =
-    property<&LightInput::direction>("direction", "The way the light travels, of any length.")
-        .or_else("0 -1 0");
-
-constexpr PropertyRow kPointLight[] = {kLightPosition, kLightColor, kLightIntensity, kLightFalloff};
-constexpr PropertyRow kDirectionalLight[] = {kLightDirection, kLightColor, kLightIntensity};
-constexpr PropertyRow kSpotLight[] = {
-    kLightPosition,
-    property<&LightInput::look_at>("look_at", "The point it shines at, in place of direction.")
-        .in(kLength)
-        .or_else("along direction"),
-    kLightDirection,
-    property<&LightInput::angle>("angle", "The full width of its cone.").in(kDegrees).within({0, 360, true}),
-    property<&LightInput::soft_edge>("soft_edge",
-                                     "Over how much of the cone's angle it fades out, from the rim inwards.")
-        .within(kShare),
-    kLightColor,
-    kLightIntensity,
-    kLightFalloff,
-};
-
-Light make_light(const LightInput& in, Light::Kind kind) {
-  Light light;
-  light.kind = kind;
-  light.falloff = in.falloff;
-  light.lambda = Color3f(in.intensity * in.color.rgb);
-  return light;
-}
-
-void build_point_light(const LightInput& in, BlockContext& block) {
-  Light light = make_light(in, Light::Kind::kPoint);
-  light.position = Vector3f(block.placed(in.position).point(in.position));
-  block.add_light(light);
-}
-
-// The way a light points, in the world; nothing where that is no direction, which has then been reported.
-std::optional<Vector3f> world_direction(const LightInput& in, BlockContext& block) {
-  const bool aims = in.look_at.has_value();
-  const Vector3d direction = aims ? *in.look_at - in.position : in.direction.value_or(Vector3d(0, -1, 0));
-  if (glm::length(direction) > 0) {
-    return Vector3f(glm::normalize(block.placed(in.position).vector(direction)));
-  }
-  block.error(aims ? "look_at" : "direction",
-              aims ? "the light shines at the point where it stands" : "'direction' has no length",
-              aims ? "'position' and 'look_at' must differ" : "direction 0 -1 0");
-  return std::nullopt;
-}
-
-void build_directional_light(const LightInput& in, BlockContext& block) {
-  Light light = make_light(in, Light::Kind::kDirectional);
-  const std::optional<Vector3f> direction = world_direction(in, block);
-  if (!direction) return;
-  light.direction = *direction;
-  block.add_light(light);
-}
-
-void build_spot_light(const LightInput& in, BlockContext& block) {
-  if (in.look_at && in.direction) {
-    return block.error("direction", "a spot has either 'look_at' or 'direction'", "remove one of them");
-  }
-  Light light = make_light(in, Light::Kind::kSpot);
-  light.position = Vector3f(block.placed(in.position).point(in.position));
-  const std::optional<Vector3f> direction = world_direction(in, block);
-  if (!direction) return;
-  light.direction = *direction;
-  const double half_angle = glm::radians(in.angle / 2);
-  light.cos_outer = static_cast<float>(std::cos(half_angle));
-  light.cos_inner = static_cast<float>(std::cos(half_angle * (1 - in.soft_edge)));
-  block.add_light(light);
-}
-
-struct MaterialInput {
-  ColorValue color{Vector3d(0.8)};
-  double shininess = 0;
-};
-constexpr PropertyRow kMaterial[] = {
-    property<&MaterialInput::color>("color", "The share of light that it returns.").within(kShare),
-    property<&MaterialInput::shininess>("shininess", "0 is matt, 1 all mirror, between is partly both."),
-};
-void build_material(const MaterialInput& in, BlockContext& block) {
-  Material material;
-  material.color = Color3f(in.color.rgb);
-  material.shininess = static_cast<float>(in.shininess);
-  block.add_material(material);
-}
-
 struct GroupInput {};
 void build_group(const GroupInput&, BlockContext& block) { block.build_children(); }
 
 KindRow setting(KindRow row, Placing placing = Placing::kNone) {
   row.block_class = BlockClass::kSetting;
   row.placing = placing;
-  return row;
-}
-
-KindRow light(KindRow row, std::string_view variant) {
-  row.variant = variant;
-  row.placing = Placing::kRigid;
   return row;
 }
 
@@ -266,28 +213,6 @@ std::span<const KindRow> setting_kinds() {
           kind<BackgroundInput, build_background>("background", "What is behind everything.", kBackground)),
       setting(kind<AnimationInput, build_animation>("animation", "How much time there is.", kAnimation)),
   };
-  return rows;
-}
-
-std::span<const KindRow> light_kinds() {
-  static const KindRow rows[] = {
-      light(kind<LightInput, build_point_light>("light", "A point that shines all around.", kPointLight), ""),
-      light(kind<LightInput, build_point_light>("light", "The same, named in full.", kPointLight), "point"),
-      light(kind<LightInput, build_directional_light>("light", "Parallel light from far away.",
-                                                      kDirectionalLight),
-            "directional"),
-      light(kind<LightInput, build_spot_light>("light", "A point that shines within a cone.", kSpotLight),
-            "spot"),
-  };
-  return rows;
-}
-
-std::span<const KindRow> material_kinds() {
-  static const KindRow rows[] = {[] {
-    KindRow row = kind<MaterialInput, build_material>("material", "What a surface is made of.", kMaterial);
-    row.block_class = BlockClass::kMaterial;
-    return row;
-  }()};
   return rows;
 }
 

@@ -200,7 +200,7 @@ constexpr PropertyRow kPicture[] = {
 };
 void build_picture(const PictureInput& in, BlockContext& block) {
   const TexelUse use{block.texture_meaning(), in.curve, in.channel};
-  const auto pyramid = block.pyramid("file", in.file.path, use);
+  const auto pyramid = block.pyramid("file", in.file.name, use);
   if (pyramid == nullptr) return;
   TexturePlacement placement;
   placement.scale = Vector2f(in.uv_scale[0] / in.scale, in.uv_scale[1] / in.scale);

@@ -30,15 +30,10 @@ void SceneHasher::add(const PropertyRow& property, const Argument& argument) {
   hasher_.add(kProperty);
   hasher_.add(property.name);
   for (const double number : argument.numbers) hasher_.add(number);
-  if (property.type != PropertyType::kFile) hasher_.add(argument.text);  // of a file the content counts
+  hasher_.add(argument.text);
+  for (const double number : argument.list) hasher_.add(number);
+  hasher_.add(std::uint64_t{argument.list.size()});
   hasher_.add(std::uint64_t{argument.index} << 1U | (argument.is_display ? 1U : 0U));
-}
-
-void SceneHasher::add(std::string_view name, const SceneHash& content) {
-  if (!is_seen_) return;
-  hasher_.add(kContent);
-  hasher_.add(name);
-  for (const std::uint64_t word : content) hasher_.add(word);
 }
 
 void SceneHasher::number_texture(const void* texture) {
@@ -51,6 +46,10 @@ void SceneHasher::add_texture(std::string_view property, const void* texture) {
   hasher_.add(property);
   const auto known = texture_numbers_.find(texture);
   hasher_.add(known == texture_numbers_.end() ? 0 : known->second);
+}
+
+void SceneHasher::add_content(const SceneHash& content) {
+  for (const std::uint64_t word : content) hasher_.add(word);
 }
 
 void SceneHasher::end_block(const std::optional<std::uint32_t>& material) {
@@ -67,6 +66,13 @@ SceneHash SceneHasher::finish(const RenderSettings& settings, std::string_view c
     hasher_.add(static_cast<std::uint64_t>(number));
   }
   hasher_.add(std::uint64_t{settings.seed});
+  hasher_.add(static_cast<std::uint64_t>(settings.method));
+  hasher_.add(static_cast<std::uint64_t>(settings.sampling));
+  hasher_.add(double{settings.clamp_indirect});
+  const Development& development = settings.development;
+  hasher_.add(double{development.exposure});
+  hasher_.add(static_cast<std::uint64_t>(development.tone));
+  for (int i = 0; i < 3; ++i) hasher_.add(double{development.white[i]});
   hasher_.add(camera);
   return hasher_.value();
 }

@@ -22,12 +22,12 @@ class SceneHasher {
   void begin_block(const KindRow& kind, std::string_view name, const Transform& to_world,
                    std::uint32_t material);
   void add(const PropertyRow& property, const Argument& argument);
-  /// What else goes into the pixels, of the innermost block.
-  void add(std::string_view name, const SceneHash& content);
   /// A texture with a name has been made.
   void number_texture(const void* texture);
   /// A property of the innermost block has a texture: one with a name, or the one whose block has just ended.
   void add_texture(std::string_view property, const void* texture);
+  /// What stands in a file that is no scene's text, as a hash.
+  void add_content(const SceneHash& content);
   /// `material` is the block's own.
   void end_block(const std::optional<std::uint32_t>& material);
 

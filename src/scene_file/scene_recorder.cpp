@@ -50,6 +50,8 @@ std::string value_text(const PropertyRow& row, const Argument& argument) {
     case PropertyType::kSize:
       if (n[0] == n[1] && n[1] == n[2]) return fmt::format("{}", n[0]);
       break;
+    case PropertyType::kNumbers:
+      return array_text(argument.list);
     default:
       break;
   }

@@ -101,6 +101,8 @@ std::string describe_type(const PropertyRow& row) {
       return "true or false";
     case PropertyType::kString:
       return "a string";
+    case PropertyType::kFile:
+      return "the name of a file";
     case PropertyType::kVector:
       return "three numbers";
     case PropertyType::kSize:
@@ -111,8 +113,6 @@ std::string describe_type(const PropertyRow& row) {
       return "two numbers";
     case PropertyType::kColor:
       return row.is_texture_only ? "a texture" : "a colour";
-    case PropertyType::kFile:
-      return "the name of a file";
     case PropertyType::kStop:
       return "a number and a colour";
     case PropertyType::kWord:
@@ -124,6 +124,8 @@ std::string describe_type(const PropertyRow& row) {
       return "an axis x y z and an angle";
     case PropertyType::kMatrix:
       return "twelve numbers";
+    case PropertyType::kNumbers:
+      return "numbers";
   }
   return {};
 }
@@ -137,6 +139,10 @@ std::string example_value(const PropertyRow& row) {
       return "true";
     case PropertyType::kString:
       return "\"text\"";
+    case PropertyType::kFile:
+      return "\"file\"";
+    case PropertyType::kNumbers:
+      return "0 0 0  1 0 0  0 1 0";
     case PropertyType::kVector:
       return "0 1 0";
     case PropertyType::kSize:
@@ -145,8 +151,6 @@ std::string example_value(const PropertyRow& row) {
       return "960 540";
     case PropertyType::kPair:
       return "2 2";
-    case PropertyType::kFile:
-      return "\"wood.png\"";
     case PropertyType::kStop:
       return "0.5 red";
     case PropertyType::kColor:

@@ -25,6 +25,7 @@ enum class PropertyType : std::uint8_t {
   kInteger,
   kBoolean,
   kString,
+  kFile,  ///< the name of a file, relative to the file that says it
   kVector,  ///< three numbers
   kSize,    ///< one number for all axes, or three
   kPixels,  ///< two whole numbers
@@ -32,10 +33,10 @@ enum class PropertyType : std::uint8_t {
   kColor,
   kWord,      ///< one of a list of words
   kMaterial,  ///< the name of a material, or one in place
-  kFile,      ///< the name of a file, relative to the text that has it
   kStop,      ///< a number and a colour
   kAxisAngle,
   kMatrix,
+  kNumbers,  ///< any number of numbers, vectors among them
 };
 
 /// The values that make sense, for each number of a property.
@@ -48,18 +49,23 @@ inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{0, 1e18, true};
 inline constexpr Range kNotNegative{0, 1e18, false};
 inline constexpr Range kShare{0, 1, false};
+/// Of what shines. A quadratic light for lengths in the millions is beyond 1e15, and the product of two such
+/// numbers must stay well within what single precision holds.
+inline constexpr double kBrightest = 1e32;
+inline constexpr Range kBrightness{0, kBrightest, false};
 
 /// A value that fits its property: what the rows store away.
 struct Argument {
   std::array<double, 12> numbers{};
-  std::string text;         ///< of a file its canonical path
+  std::string text;
+  std::vector<double> list;  ///< of kNumbers
   std::uint32_t index = 0;  ///< of a word in its list, of a material in the scene
   bool is_display = false;  ///< of a colour, as Value has it
   bool depends_on_time = false;
 };
 
-/// A colour as written; 1 is white. Display colours (#rrggbb, names) are the same numbers in `method
-/// classic`.
+/// A colour in the numbers that the scene's method computes with; 1 is white. What was written as a display
+/// colour (#rrggbb, a name) has become linear in `path`, and is as it was in `classic`.
 struct ColorValue {
   Vector3d rgb{1};
 };
@@ -67,11 +73,6 @@ struct ColorValue {
 /// A material of the scene by its index.
 struct MaterialIndex {
   std::uint32_t index = 0;
-};
-
-/// A file that a scene names.
-struct FileName {
-  std::string path;  ///< canonical
 };
 
 /// A colour of a ramp, and where it stands.
@@ -84,6 +85,11 @@ struct StopValue {
 struct ColorOrTexture {
   Vector3d rgb{1};
   TexturePointer texture;
+};
+
+/// The name of a file as written.
+struct FileName {
+  std::string name;
 };
 
 struct PropertyRow {
@@ -147,8 +153,11 @@ struct KindRow {
   Placing placing = Placing::kNone;
   bool takes_material = false;
   bool has_children = false;
+  bool is_sheet = false;  ///< a shape that encloses nothing, whatever its properties
   std::string_view help;
   std::span<const PropertyRow> properties;
+  std::span<const std::string_view>
+      words_to_come;  ///< properties that the language knows and nothing shows yet
   void (*build)(BlockContext& context) = nullptr;
   std::string (*default_of)(const PropertyRow& row) = nullptr;
 };
@@ -214,10 +223,11 @@ constexpr PropertyType property_type() {
   if constexpr (std::is_same_v<T, int>) return PropertyType::kInteger;
   if constexpr (std::is_same_v<T, bool>) return PropertyType::kBoolean;
   if constexpr (std::is_same_v<T, std::string>) return PropertyType::kString;
+  if constexpr (std::is_same_v<T, FileName>) return PropertyType::kFile;
+  if constexpr (std::is_same_v<T, std::vector<double>>) return PropertyType::kNumbers;
   if constexpr (std::is_same_v<T, Vector3d>) return PropertyType::kVector;
   if constexpr (std::is_same_v<T, std::array<int, 2>>) return PropertyType::kPixels;
   if constexpr (std::is_same_v<T, std::array<double, 2>>) return PropertyType::kPair;
-  if constexpr (std::is_same_v<T, FileName>) return PropertyType::kFile;
   if constexpr (std::is_same_v<T, std::vector<StopValue>>) return PropertyType::kStop;
   if constexpr (std::is_same_v<T, ColorOrTexture>) return PropertyType::kColor;
   if constexpr (std::is_same_v<T, ColorValue>) return PropertyType::kColor;
@@ -232,11 +242,12 @@ T from_argument(const Argument& a) {
   if constexpr (std::is_same_v<T, int>) return static_cast<int>(n[0]);
   if constexpr (std::is_same_v<T, bool>) return n[0] != 0;
   if constexpr (std::is_same_v<T, std::string>) return a.text;
+  if constexpr (std::is_same_v<T, FileName>) return {a.text};
+  if constexpr (std::is_same_v<T, std::vector<double>>) return a.list;
   if constexpr (std::is_same_v<T, Vector3d>) return {n[0], n[1], n[2]};
   if constexpr (std::is_same_v<T, std::array<int, 2>>)
     return {static_cast<int>(n[0]), static_cast<int>(n[1])};
   if constexpr (std::is_same_v<T, std::array<double, 2>>) return {n[0], n[1]};
-  if constexpr (std::is_same_v<T, FileName>) return {a.text};
   if constexpr (std::is_same_v<T, StopValue>) return {n[3], {n[0], n[1], n[2]}};
   if constexpr (std::is_same_v<T, ColorOrTexture>) return {{n[0], n[1], n[2]}, nullptr};
   if constexpr (std::is_same_v<T, ColorValue>) return {{n[0], n[1], n[2]}};

@@ -34,17 +34,34 @@ constexpr double kSomething = 0.5;
 void BlockContext::set_texture(TexturePointer texture) { builder_.last_texture_ = std::move(texture); }
 TextureMeaning BlockContext::texture_meaning() const { return builder_.texture_meaning_; }
 
-std::shared_ptr<const TexelPyramid> BlockContext::pyramid(std::string_view property, const std::string& path,
-                                                          const TexelUse& use) {
+template <class Read>
+auto BlockContext::read_picture_file(std::string_view property, const std::string& file, const Read& read)
+    -> decltype(read(file)) {
+  Files& files = builder_.files_;
+  const Place named = place_of(property);
+  const std::string path = files.find(file, named, "a picture", builder_.diagnostics_);
+  if (path.empty()) return nullptr;
+  files.note_read(path);
   try {
-    return builder_.files_.pictures().pyramid(path, use);
+    auto result = read(path);
+    if (SceneHasher* hasher = builder_.hasher()) hasher->add_content(files.content_hash(path));
+    return result;
   } catch (const Error& problem) {
-    const Given* written = given(property);
-    builder_.diagnostics_.error(
-        written != nullptr ? written->place : header(),
-        fmt::format("can't read '{}': {}", builder_.files_.relative_to_main(path), problem.what()));
+    builder_.diagnostics_.error(named, fmt::format("'{}' can't be shown: {}", file, problem.what()));
     return nullptr;
   }
+}
+
+std::shared_ptr<const TexelPyramid> BlockContext::pyramid(std::string_view property, const std::string& file,
+                                                          const TexelUse& use) {
+  return read_picture_file(property, file, [&](const std::string& path) {
+    return builder_.files_.pictures().pyramid(path, use);
+  });
+}
+
+std::shared_ptr<const Picture> BlockContext::picture(std::string_view property, const std::string& file) {
+  return read_picture_file(property, file,
+                           [&](const std::string& path) { return builder_.files_.pictures().picture(path); });
 }
 
 // The row of a kind of texture; null where there is none, which has then been reported.
@@ -194,7 +211,7 @@ bool BlockContext::fill_expression(const PropertyRow& row, const PropertyNode& p
   if (builder_.recorder() != nullptr) {
     built.json = expression_json(e, *around_.source, around_.frame->values, builder_.evaluator_);
   }
-  if (SceneHasher* hasher = builder_.hasher()) hasher->add(row.name, hash_of(compiled->program));
+  if (SceneHasher* hasher = builder_.hasher()) hasher->add_content(hash_of(compiled->program));
   built.texture = make_expression_texture(std::move(compiled->program));
   return store_texture(row, built, input);
 }
