@@ -52,6 +52,12 @@ struct Picture {
   const std::uint8_t* row(int y) const { return data.get() + row_bytes() * static_cast<std::size_t>(y); }
 };
 
+/// The value of a texel's channel as it is stored: 0..1, or the float.
+float stored_value(const Picture& picture, const std::uint8_t* texel, int channel);
+
+/// A stored value as light.
+float light_of(float value, PictureCurve curve, float exponent);
+
 /// Row y as light: 3 floats a texel, linear Rec.709, into `rgb`; alpha is left out.
 void row_to_floats(const Picture& picture, int y, float* rgb);
 

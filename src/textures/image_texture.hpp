@@ -11,9 +11,6 @@
 
 namespace raytracer {
 
-/// What a picture continues as beyond its edges.
-enum class TextureWrap : std::uint8_t { kRepeat, kMirror, kClamp };
-
 /// How a picture lies in uv: the texture is asked at scale * rotate(uv) + offset. uv (0, 0) is the lower left
 /// corner of the picture, (1, 1) the upper right.
 struct TexturePlacement {

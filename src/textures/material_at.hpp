@@ -15,7 +15,8 @@ Material material_at(const Material& material, const TexturePoint& point);
 float alpha_at(const Material& material, const TexturePoint& point);
 
 /// The shading normal after the material's normal map and bump, unit length, on the same side of the surface.
-/// `normal` is the shading normal before. Where the surface has no u and v directions it stays.
+/// `normal` is the shading normal before. Where the surface has no u and v directions a normal map does
+/// nothing and bump follows the position alone.
 Vector3f perturbed_normal(const Material& material, const SurfaceDetail& detail, const TexturePoint& point,
                           const Vector3f& normal);
 
