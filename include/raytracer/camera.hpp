@@ -79,6 +79,11 @@ class Camera {
   Vector3f up() const { return up_; }        ///< times half_height
   /// Whether all rays start in one point and what they see is a pyramid around `forward`.
   bool is_pinhole() const { return is_plain_; }
+  /// Whether what it sees is no pyramid or prism around `forward`.
+  bool sees_all_around() const {
+    const bool is_flat = projection_ == Projection::kPerspective || projection_ == Projection::kOrthographic;
+    return !is_flat || shift_x_ != 0 || shift_y_ != 0;
+  }
   /// How far a ray may start from `position`, but for orthographic cameras.
   float reach() const { return lens_radius_ + std::abs(half_eye_distance_); }
 

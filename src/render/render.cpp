@@ -100,11 +100,23 @@ Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel
   return scene.camera().ray_through(across, down, lens);
 }
 
+// How wide what that ray stands for is. Many samples share a pixel: each stands for a part of it.
+RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
+                    const Vector2f& lens, const Ray3f& ray, int samples) {
+  const Ray3f next = camera_ray(scene, image, pixel, within + Vector2f(1, 0), lens);
+  const float share = 1 / std::sqrt(static_cast<float>(samples));
+  return {share * glm::length(next.origin - ray.origin), share * glm::length(next.direction - ray.direction)};
+}
+
 // Renders the samples of one slice of time by the paper's recursion.
 class ClassicRenderer {
  public:
   ClassicRenderer(const Scene& scene, const RenderSettings& settings, const Slice& slice, Image& image)
-      : scene_(scene), settings_(settings), slice_(slice), image_(image) {}
+      : scene_(scene),
+        settings_(settings),
+        slice_(slice),
+        image_(image),
+        has_textures_(has_textures(scene.description())) {}
 
   /// Adds to the tile's pixels; returns how many rays that took.
   std::uint64_t render(const Tile& tile) const {
@@ -112,14 +124,19 @@ class ClassicRenderer {
     const std::vector<glm::ivec2>& pixels = sums.pixels();
     std::vector<Color3f> colors(pixels.size());
     std::vector<Ray3f> rays(pixels.size());
+    std::vector<RayCone> cones(has_textures_ ? pixels.size() : 0);
     PixelColors tracer(scene_);
     const bool has_lens = scene_.camera().has_lens();
     for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
       for (std::size_t i = 0; i < pixels.size(); ++i) {
         const Vector2f lens = has_lens ? place_on_lens(pixels[i], sample) : Vector2f(0.5F);
-        rays[i] = camera_ray(scene_, image_, pixels[i], place_in_pixel(pixels[i], sample), lens);
+        const Vector2f within = place_in_pixel(pixels[i], sample);
+        rays[i] = camera_ray(scene_, image_, pixels[i], within, lens);
+        if (has_textures_) {
+          cones[i] = camera_cone(scene_, image_, pixels[i], within, lens, rays[i], settings_.samples);
+        }
       }
-      tracer.trace(rays, settings_.bounces, colors);
+      tracer.trace(rays, settings_.bounces, colors, cones);
       sums.add(colors, 1);
     }
     sums.store(slice_, settings_.samples);
@@ -142,10 +159,22 @@ class ClassicRenderer {
     return sobol_point(owen_scramble(static_cast<std::uint32_t>(sample), seed), hash_bits(seed));
   }
 
+  static bool has_textures(const SceneDescription& scene) {
+    const auto is_textured = [](const Material& material) { return material.textures != nullptr; };
+    return std::ranges::any_of(scene.materials, is_textured) ||
+           std::ranges::any_of(scene.shared, [&](const auto& shared) {
+             for (std::uint32_t i = 0; i < shared->size(); ++i) {
+               if (is_textured(shared->material_of(i))) return true;
+             }
+             return false;
+           });
+  }
+
   const Scene& scene_;
   const RenderSettings& settings_;
   const Slice& slice_;
   Image& image_;
+  bool has_textures_;
 };
 
 // Likewise by path tracing.
@@ -186,13 +215,10 @@ class PathRenderer {
  private:
   static constexpr float kWhite = 255;
 
-  // Many samples share a pixel: each stands for a part of it.
   ConeRay cone_ray(const glm::ivec2& pixel, const Vector2f& place, const Vector2f& lens) const {
     const Ray3f ray = camera_ray(scene_, image_, pixel, place, lens);
-    const Ray3f next = camera_ray(scene_, image_, pixel, place + Vector2f(1, 0), lens);
-    const float share = 1 / std::sqrt(static_cast<float>(settings_.samples));
-    return {ray, share * glm::length(next.origin - ray.origin),
-            share * glm::length(next.direction - ray.direction)};
+    const RayCone cone = camera_cone(scene_, image_, pixel, place, lens, ray, settings_.samples);
+    return {ray, cone.width, cone.spread};
   }
 
   const Scene& scene_;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "raytracer/scene.hpp"
+#include "textures/material_at.hpp"
 
 namespace raytracer {
 namespace {
@@ -44,16 +45,17 @@ TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const 
 }  // namespace
 
 Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface) const {
-  const TexturePoint point = texture_point(ray, surface, detail_at(ray, hit), width);
-  static_cast<void>(point);
-  return material_of(hit);
+  const Material& material = material_of(hit);
+  const SurfaceDetail detail = detail_at(ray, hit);
+  const TexturePoint point = texture_point(ray, surface, detail, width);
+  surface.shading_normal = perturbed_normal(material, detail, point, surface.shading_normal);
+  return material_at(material, point);
 }
 
 float Scene::alpha_at(const Ray3f& ray, const Hit& hit) const {
   const Material& material = material_of(hit);
   if (material.textures == nullptr || material.textures->alpha == nullptr) return material.alpha;
-  const TexturePoint point = texture_point(ray, surface_at(ray, hit), detail_at(ray, hit), 0);
-  return glm::clamp(material.textures->alpha->at(point).x, 0.0F, 1.0F);
+  return raytracer::alpha_at(material, texture_point(ray, surface_at(ray, hit), detail_at(ray, hit), 0));
 }
 
 }  // namespace raytracer

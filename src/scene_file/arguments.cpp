@@ -42,6 +42,7 @@ class ArgumentReader {
       case PropertyType::kWord:
         return word();
       case PropertyType::kMaterial:
+      case PropertyType::kName:
         return name();
       case PropertyType::kBoolean:
         return single(ValueType::kBoolean);

@@ -113,8 +113,8 @@ void BlockContext::report_unknown_property(Span name) {
 
 void BlockContext::store(const PropertyRow& row, const Argument& argument, void* input) {
   if (parameters_ == nullptr) {
-    const bool is_number = row_.block_class == BlockClass::kTexture &&
-                           builder_.texture_meaning_ != TextureMeaning::kLight;
+    const bool is_number =
+        row_.block_class == BlockClass::kTexture && builder_.texture_meaning_ != TextureMeaning::kLight;
     if (!argument.is_display || builder_.method_ == Method::kClassic || is_number) {
       return row.store(input, argument);
     }
@@ -158,8 +158,8 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
                                 fmt::format("{} {}", row->name, example_value(*row)));
     return false;
   }
-  const auto argument = read_argument(*row, property, *around_.source, around_.frame->values, builder_.evaluator_,
-                                builder_.diagnostics_);
+  const auto argument = read_argument(*row, property, *around_.source, around_.frame->values,
+                                      builder_.evaluator_, builder_.diagnostics_);
   if (!argument) return false;
   depends_on_time_ = depends_on_time_ || argument->depends_on_time;
   if (SceneHasher* hasher = builder_.hasher()) hasher->add(*row, *argument);
@@ -330,6 +330,9 @@ void BlockContext::warn_of_solid_sheet(const Material& material) {
 void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
   builder_.note_shape(header());
   const std::uint32_t material = material_.value_or(around_.material);
+  if (!name_.empty() && shape->bounds().is_finite()) {
+    builder_.draft_.named_shapes.try_emplace(std::string(name_), shape->bounds());
+  }
   if (row_.is_sheet) warn_of_solid_sheet(builder_.draft_.scene.materials[material]);
   builder_.store_.add(std::move(shape), material, depends_on_time());
 }

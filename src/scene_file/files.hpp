@@ -2,8 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -12,7 +10,6 @@
 #include "scene_file/diagnostics.hpp"
 #include "scene_file/source.hpp"
 #include "scene_file/syntax.hpp"
-#include "textures/picture_cache.hpp"
 #include "textures/picture_cache.hpp"
 
 namespace raytracer::scene_file {
@@ -28,9 +25,9 @@ class Files {
   /// Takes the main scene's text.
   const SyntaxTree* add_main(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
-  /// Where a file that a scene at `from` names lies, as a canonical path. Empty where it can't be had, or is not
-  /// the scene's to read, which has then been reported at `from`; `what` it is good for is said there ("a file
-  /// to include").
+  /// Where a file that a scene at `from` names lies, as a canonical path. Empty where it can't be had, or is
+  /// not the scene's to read, which has then been reported at `from`; `what` it is good for is said there ("a
+  /// file to include").
   std::string find(const std::string& file, const Place& from, std::string_view what,
                    Diagnostics& diagnostics) const;
   /// Throws Error (kScene) where a file that another file names (a mesh its materials) is not the scene's to
@@ -50,17 +47,6 @@ class Files {
   /// had, which has then been reported at `from`.
   const SyntaxTree* include(const std::string& file, const Place& from, Diagnostics& diagnostics);
 
-  /// The canonical path of a file that a scene at `from` names. Nothing where it can't be had, which has then
-  /// been reported at `from`.
-  std::optional<std::string> find(const std::string& file, const Place& from, Diagnostics& diagnostics);
-
-  /// All pictures of the scene, each read once.
-  PictureCache& pictures() { return pictures_; }
-  /// A hash of a file's content, for a file that find() has found.
-  const SceneHash& content_hash(const std::string& path);
-  /// A canonical path as a scene in the main scene's folder would write it.
-  std::string relative_to_main(const std::string& path) const;
-
   /// The tree of a source of this scene.
   const SyntaxTree* tree_of(const Source& source) const;
 
@@ -76,7 +62,6 @@ class Files {
   };
 
   bool is_allowed(const std::string& canonical_path) const;
-  std::optional<std::string> locate(const std::string& file, const Place& from, Diagnostics& diagnostics);
   const SyntaxTree* add(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
   std::vector<std::string> allowed_folders_;  ///< canonical; the main scene's first
@@ -84,9 +69,6 @@ class Files {
   Names names_;
   std::vector<File> files_;
   std::unordered_map<std::string, const SyntaxTree*> by_path_;
-  std::unordered_map<std::string, SceneHash> hashes_;
-  PictureCache pictures_;
-  std::set<std::string> found_;  // what is no text
   std::unordered_map<std::string, SceneHash> hashes_;
   PictureCache pictures_;
 };

@@ -39,6 +39,7 @@ std::string value_text(const PropertyRow& row, const Argument& argument) {
     case PropertyType::kBoolean:
       return n[0] != 0 ? "true" : "false";
     case PropertyType::kString:
+    case PropertyType::kName:
     case PropertyType::kFile:
       return json_quoted(argument.text);
     case PropertyType::kStop:

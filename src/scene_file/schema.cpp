@@ -92,6 +92,7 @@ bool is_property_of(std::string_view kind, std::string_view property) {
 }
 
 std::string describe_type(const PropertyRow& row) {
+  if (row.is_texture_only) return "a texture";
   switch (row.type) {
     case PropertyType::kNumber:
       return "a number";
@@ -112,7 +113,9 @@ std::string describe_type(const PropertyRow& row) {
     case PropertyType::kPair:
       return "two numbers";
     case PropertyType::kColor:
-      return row.is_texture_only ? "a texture" : "a colour";
+      return "a colour";
+    case PropertyType::kName:
+      return "a name";
     case PropertyType::kStop:
       return "a number and a colour";
     case PropertyType::kWord:
@@ -131,6 +134,7 @@ std::string describe_type(const PropertyRow& row) {
 }
 
 std::string example_value(const PropertyRow& row) {
+  if (row.is_texture_only) return "noise { }";
   switch (row.type) {
     case PropertyType::kNumber:
     case PropertyType::kInteger:
@@ -151,10 +155,12 @@ std::string example_value(const PropertyRow& row) {
       return "960 540";
     case PropertyType::kPair:
       return "2 2";
+    case PropertyType::kName:
+      return "ball";
     case PropertyType::kStop:
       return "0.5 red";
     case PropertyType::kColor:
-      return row.is_texture_only ? "noise { }" : "0.9 0.4 0.1";
+      return "0.9 0.4 0.1";
     case PropertyType::kWord:
       return std::string(row.words.front());
     case PropertyType::kMaterial:

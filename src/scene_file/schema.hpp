@@ -25,7 +25,7 @@ enum class PropertyType : std::uint8_t {
   kInteger,
   kBoolean,
   kString,
-  kFile,  ///< the name of a file, relative to the file that says it
+  kFile,    ///< the name of a file, relative to the file that says it
   kVector,  ///< three numbers
   kSize,    ///< one number for all axes, or three
   kPixels,  ///< two whole numbers
@@ -33,6 +33,7 @@ enum class PropertyType : std::uint8_t {
   kColor,
   kWord,      ///< one of a list of words
   kMaterial,  ///< the name of a material, or one in place
+  kName,      ///< a bare word: of a shape
   kStop,      ///< a number and a colour
   kAxisAngle,
   kMatrix,
@@ -59,8 +60,8 @@ struct Argument {
   std::array<double, 12> numbers{};
   std::string text;
   std::vector<double> list;  ///< of kNumbers
-  std::uint32_t index = 0;  ///< of a word in its list, of a material in the scene
-  bool is_display = false;  ///< of a colour, as Value has it
+  std::uint32_t index = 0;   ///< of a word in its list, of a material in the scene
+  bool is_display = false;   ///< of a colour, as Value has it
   bool depends_on_time = false;
 };
 

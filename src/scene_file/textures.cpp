@@ -54,9 +54,8 @@ auto BlockContext::read_picture_file(std::string_view property, const std::strin
 
 std::shared_ptr<const TexelPyramid> BlockContext::pyramid(std::string_view property, const std::string& file,
                                                           const TexelUse& use) {
-  return read_picture_file(property, file, [&](const std::string& path) {
-    return builder_.files_.pictures().pyramid(path, use);
-  });
+  return read_picture_file(
+      property, file, [&](const std::string& path) { return builder_.files_.pictures().pyramid(path, use); });
 }
 
 std::shared_ptr<const Picture> BlockContext::picture(std::string_view property, const std::string& file) {
