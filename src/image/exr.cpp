@@ -175,12 +175,14 @@ std::string all_names(const ExrHeader& header) {
 
 ChosenChannels choose_channels(const ExrHeader& header) {
   ChosenChannels chosen;
-  for (const std::string& layer : layers_of(header)) {
-    chosen.names = colors_in(header, layer);
-    if (!chosen.names.empty()) break;
+  if (header.channels.size() == 1) {  // a grey, a height or a mask, whatever it is called
+    chosen.names = {header.channels[0].name};
+  } else {
+    for (const std::string& layer : layers_of(header)) {
+      chosen.names = colors_in(header, layer);
+      if (!chosen.names.empty()) break;
+    }
   }
-  // A lone channel of another name is a height or a mask.
-  if (chosen.names.empty() && header.channels.size() == 1) chosen.names = {header.channels[0].name};
   if (chosen.names.empty()) {
     throw Error(ErrorKind::kScene,
                 fmt::format("the EXR has no channel R, G, B or Y, but {}", printable(all_names(header))));

@@ -110,7 +110,7 @@ Error broken(const char* why) { return {ErrorKind::kScene, fmt::format("the PNG 
 // libpng takes, and clears, as much memory as a chunk says that it is long: up to 2 GiB.
 void check_chunks(ByteSpan file) {
   constexpr std::size_t kSignature = 8, kAround = 12;  // length, name and checksum
-  for (std::size_t at = kSignature; at != file.size();) {
+  for (std::size_t at = kSignature; at < file.size();) {
     const std::size_t left = file.size() - at;
     if (left < kAround || png_get_uint_32(file.data() + at) > left - kAround) {
       throw broken("it ends within a chunk");

@@ -97,6 +97,11 @@ struct PathTracer::Vertex {
     const float offset = epsilon.value_or(surface.position_error);
     return surface.position + (glm::dot(direction, surface.normal) > 0 ? offset : -offset) * surface.normal;
   }
+  // Where a ray to a light starts.
+  Vector3f shadow_position(const Vector3f& direction, const std::optional<float>& epsilon) const {
+    const bool is_reflected = glm::dot(direction, facing) > 0;
+    return offset_position(direction, epsilon) + (is_reflected ? surface.shadow_offset : Vector3f(0));
+  }
 };
 
 PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings, const PathPoints& points,
@@ -215,7 +220,7 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
     path.throughput *= glm::exp(-distance * absorption_of(*medium));
   }
   std::optional<Material> textured;
-  if (material.textures != nullptr) {
+  if (material.textures != nullptr || scene_.has_vertex_colors()) {
     textured = scene_.textured(path.ray, hit, path.cone_width, vertex.surface);
     vertex.resolved = &*textured;
   }
@@ -278,7 +283,7 @@ void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const 
     weight = power_heuristic(light.pdf, bsdf.pdf(vertex.out, light.direction));
   }
   const std::size_t i = waiting_.count++;
-  waiting_.rays[i] = light.shadow_ray(vertex.offset_position(light.direction, scene_.description().epsilon));
+  waiting_.rays[i] = light.shadow_ray(vertex.shadow_position(light.direction, scene_.description().epsilon));
   // Multiplied in this order nothing overflows that is not too large itself.
   waiting_.light[i] = path.throughput * value * (weight / light.pdf) * light.radiance;
   waiting_.slot[i] = path.slot;

@@ -1,20 +1,27 @@
-// What the inside of a material takes away from light.
+// What a medium takes from light on its way through.
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 
 #include "raytracer/material.hpp"
 
 namespace raytracer {
 
-/// The share that is lost per scene unit, per channel: exp(-absorption * way) is left (Beer's law), which is
-/// attenuation_color after attenuation_distance (glTF's KHR_materials_volume). At most so much that it stays
-/// a number.
+/// The share that is lost per scene unit, sigma of exp(-sigma distance) (Beer and Lambert), such that white
+/// light is attenuation_color after attenuation_distance. A channel of 0 loses all but 1e-6 by then; whatever
+/// the values, it is finite and not negative.
 inline Color3f absorption_of(const Material& material) {
-  if (!(material.attenuation_distance < kInfinity)) return Color3f(0);
-  constexpr float kDarkest = 1e-30F;
-  const Color3f left = glm::clamp(material.attenuation_color, kDarkest, 1.0F);
-  return -glm::log(left) / std::max(material.attenuation_distance, kDarkest);
+  constexpr float kGreatest = 1e30F;
+  const float distance = material.attenuation_distance;
+  Color3f sigma{0};
+  if (!(distance < kInfinity)) return sigma;
+  for (int c = 0; c < 3; ++c) {
+    const float rest = material.attenuation_color[c];
+    if (!(rest < 1)) continue;  // also what is not a number
+    const float optical = -std::log(std::max(1e-6F, rest));
+    sigma[c] = distance > 0 ? std::min(kGreatest, optical / distance) : kGreatest;
+  }
+  return sigma;
 }
 
 }  // namespace raytracer

@@ -7,8 +7,8 @@
 namespace raytracer {
 namespace {
 
-inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hit& hit,
-                                  const SurfacePoint& surface) {
+inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hit& hit) {
+  const SurfacePoint surface = scene.surface_at(ray, hit);
   ShadingPoint point;
   const bool is_back = glm::dot(surface.normal, ray.direction) > 0;
   point.normal = is_back ? -surface.normal : surface.normal;
@@ -34,21 +34,13 @@ Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
   return {point.offset_position, direction};
 }
 
-// What of a material the paper's recursion knows, its textures looked up.
-struct ClassicMaterial {
-  Color3f color;
-  float shininess;
-};
+// With what the vertices of a mesh say.
+Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hit, const Material& material) {
+  if (!scene.has_vertex_colors() || !material.takes_vertex_colors) return material.color;
+  return material.color * scene.detail_at(ray, hit).color;
+}
 
 float mirror_share(const Material& material) { return glm::clamp(material.shininess, 0.0f, 1.0f); }
-
-ClassicMaterial classic_material(const Scene& scene, const Ray3f& ray, const Hit& hit, const RayCone& cone,
-                                 SurfacePoint& surface) {
-  const Material& material = scene.material_of(hit);
-  if (material.textures == nullptr) return {material.color, mirror_share(material)};
-  const Material textured = scene.textured(ray, hit, cone.width + hit.t * cone.spread, surface);
-  return {textured.color, mirror_share(textured)};
-}
 
 // The sum over the lights that the point sees, in units of the buffers.
 Color3f direct_light(const Scene& scene, const ShadingPoint& point, std::uint64_t& rays) {
@@ -69,15 +61,15 @@ Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, 
   ++rays;
   Hit hit;
   if (!scene.is_hit(ray, hit)) return 255.0f * scene.description().background;
-  SurfacePoint surface = scene.surface_at(ray, hit);
-  const ClassicMaterial material = classic_material(scene, ray, hit, {}, surface);
-  const float shininess = material.shininess;
-  const ShadingPoint point = shading_point(scene, ray, hit, surface);
+  const Material& material = scene.material_of(hit);
+  const float shininess = mirror_share(material);
+  const ShadingPoint point = shading_point(scene, ray, hit);
+  const Color3f tint = surface_color(scene, ray, hit, material);
   Color3f color(0);
-  if (shininess < 1) color += (1 - shininess) * material.color * direct_light(scene, point, rays);
+  if (shininess < 1) color += (1 - shininess) * tint * direct_light(scene, point, rays);
   if (shininess > 0 && bounces_left > 0) {
     const Ray3f reflected = reflected_ray(ray, point);
-    color += shininess * material.color * get_pixel_color(scene, reflected, bounces_left - 1, rays);
+    color += shininess * tint * get_pixel_color(scene, reflected, bounces_left - 1, rays);
   }
   return color;
 }
@@ -85,13 +77,10 @@ Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, 
 // --- many rays
 // -------------------------------------------------------------------------------------------------------
 
-void PixelColors::trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors,
-                        std::span<const RayCone> cones) {
+void PixelColors::trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors) {
   if (rays.empty()) return;
   if (levels_.empty()) levels_.resize(1);
   levels_[0].rays.assign(rays.begin(), rays.end());
-  levels_[0].cones.assign(cones.begin(), cones.end());
-  levels_[0].cones.resize(rays.size());
   std::size_t depth = 0;
   for (; static_cast<int>(depth) <= bounces && !levels_[depth].rays.empty(); ++depth) {
     shade(depth, bounces - static_cast<int>(depth));
@@ -112,7 +101,6 @@ void PixelColors::shade(std::size_t depth, int bounces_left) {
   Level* next = bounces_left > 0 ? &levels_[depth + 1] : nullptr;
   if (next != nullptr) {
     next->rays.clear();
-    next->cones.clear();
     next->parent.clear();
     next->share.clear();
   }
@@ -132,23 +120,21 @@ void PixelColors::shade(std::size_t depth, int bounces_left) {
 }
 
 void PixelColors::shade_hit(Level& level, std::uint32_t ray, const Hit& hit, Level* next) {
-  SurfacePoint surface = scene_.surface_at(level.rays[ray], hit);
-  const RayCone& cone = level.cones[ray];
-  const ClassicMaterial material = classic_material(scene_, level.rays[ray], hit, cone, surface);
-  const float shininess = material.shininess;
-  const ShadingPoint point = shading_point(scene_, level.rays[ray], hit, surface);
+  const Material& material = scene_.material_of(hit);
+  const float shininess = mirror_share(material);
+  const ShadingPoint point = shading_point(scene_, level.rays[ray], hit);
+  const Color3f tint = surface_color(scene_, level.rays[ray], hit, material);
   if (shininess < 1) {
     LitPoint& lit = lit_.emplace_back();
     lit.point = point;
     lit.ray = ray;
-    lit.share = (1 - shininess) * material.color;
+    lit.share = (1 - shininess) * tint;
     lit.light = 255.0f * scene_.description().ambient;
   }
   if (shininess > 0 && next != nullptr) {
     next->rays.push_back(reflected_ray(level.rays[ray], point));
-    next->cones.push_back({cone.width + hit.t * cone.spread, cone.spread});
     next->parent.push_back(ray);
-    next->share.push_back(shininess * material.color);
+    next->share.push_back(shininess * tint);
   }
 }
 

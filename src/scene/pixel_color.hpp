@@ -18,13 +18,6 @@ struct ShadingPoint {
   Vector3f shadow_position;  ///< where rays to lights start
 };
 
-/// How wide the part of the picture is that a ray stands for: at distance t of a ray with unit direction,
-/// width + t * spread. Textures are averaged over it.
-struct RayCone {
-  float width = 0;
-  float spread = 0;
-};
-
 /// Scene::get_pixel_color; adds the rays it traced to `rays`.
 Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, std::uint64_t& rays);
 
@@ -35,9 +28,8 @@ class PixelColors {
   explicit PixelColors(const Scene& scene) : scene_(scene) {}
 
   /// colors[i] becomes what rays[i] sees; rays that follow each other should start close together and go the
-  /// same way. `cones` belong to the rays; none: they have no width.
-  void trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors,
-             std::span<const RayCone> cones = {});
+  /// same way.
+  void trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors);
 
   /// How many rays that took so far.
   std::uint64_t rays() const { return rays_; }
@@ -47,7 +39,6 @@ class PixelColors {
   // before from which a ray comes, `share` what it adds to that one.
   struct Level {
     std::vector<Ray3f> rays;
-    std::vector<RayCone> cones;
     std::vector<std::uint32_t> parent;
     std::vector<Color3f> share;
     std::vector<Color3f> colors;

@@ -49,7 +49,9 @@ Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfaceP
   const SurfaceDetail detail = detail_at(ray, hit);
   const TexturePoint point = texture_point(ray, surface, detail, width);
   surface.shading_normal = perturbed_normal(material, detail, point, surface.shading_normal);
-  return material_at(material, point);
+  Material result = material_at(material, point);
+  if (material.takes_vertex_colors) result.color *= detail.color;
+  return result;
 }
 
 float Scene::alpha_at(const Ray3f& ray, const Hit& hit) const {

@@ -15,6 +15,7 @@
 #include "scene_file/evaluator.hpp"
 #include "scene_file/files.hpp"
 #include "scene_file/limits.hpp"
+#include "scene_file/mesh_store.hpp"
 #include "scene_file/scene_hash.hpp"
 #include "scene_file/scene_recorder.hpp"
 #include "scene_file/schema.hpp"
@@ -116,6 +117,8 @@ class BlockContext {
   void add_light(const Light& light);
   /// What add_shape() makes from here on is made of it, whatever the block says.
   void use_material(std::uint32_t index) { material_ = index; }
+  /// Adds the mesh in a file that `property` names.
+  void add_mesh_file(std::string_view property, const std::string& file, const MeshOptions& options);
   void build_children();
   std::uint32_t add_material(const Material& material);
 
@@ -153,7 +156,6 @@ class BlockContext {
   template <class Read>
   auto read_picture_file(std::string_view property, const std::string& file, const Read& read)
       -> decltype(read(file));
-  void record(SceneRecorder& recorder, const PropertyRow& row, const Argument& argument);
   void note_material();
   bool check_required();
   bool accept(const PropertyRow& row, const Place& place);
@@ -315,6 +317,8 @@ class Builder {
   SceneRecorder* recorder_ = nullptr;
   Method method_ = Method::kClassic;
   ShapeStore store_;
+  MeshStore meshes_;
+  bool is_trying_ = false;  // a definition that nothing uses
   UseCounter uses_;
   std::vector<MaterialUse> material_uses_;
   std::unordered_map<NameId, Replacement> replaced_lets_;

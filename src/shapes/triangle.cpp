@@ -1,8 +1,10 @@
 #include "raytracer/error.hpp"
 #include "raytracer/shapes.hpp"
 #include "shapes/checks.hpp"
+#include "shapes/part_sampling.hpp"
 #include "shapes/surface.hpp"
 #include "shapes/triangle_hit.hpp"
+#include "shapes/triangle_sampling.hpp"
 
 namespace raytracer {
 
@@ -20,15 +22,57 @@ class Triangle final : public Shape {
   bool is_hit(const Ray3f& ray, Hit& hit) const override { return corners_.is_hit(ray, 0, hit); }
 
   SurfacePoint surface_at(const Ray3f&, const Hit& hit) const override {
-    const double u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
-    const Vector3d position = corners_[0] + u * (corners_[1] - corners_[0]) + v * (corners_[2] - corners_[0]);
-    shapes::SurfaceBound bound;
-    bound.arithmetic = 8 * kDoubleRounding * (glm::length(corners_[0]) + glm::length(corners_.extent()));
-    bound.extent = corners_.extent();
-    return shapes::rounded_surface(position, corners_.normal(), {hit.u, hit.v}, bound);
+    return surface_of({static_cast<double>(hit.u), static_cast<double>(hit.v)});
+  }
+
+  SurfaceDetail detail_at(const Ray3f&, const Hit& hit) const override {
+    SurfaceDetail detail;
+    detail.uv = {hit.u, hit.v};
+    detail.along_u = Vector3f(corners_[1] - corners_[0]);
+    detail.along_v = Vector3f(corners_[2] - corners_[0]);
+    return detail;
+  }
+
+  std::uint32_t part_count() const override { return 1; }
+
+  PartExtent part_extent(std::uint32_t) const override {
+    const double area = 0.5 * glm::length(glm::cross(corners_[1] - corners_[0], corners_[2] - corners_[0]));
+    return shapes::flat_extent(bounds_, area, corners_.normal());
+  }
+
+  bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    const shapes::SeenTriangle seen = seen_from(from);
+    if (!seen.is_seen()) return false;
+    const glm::dvec2 weights = seen.sample(u);
+    sample.u = static_cast<float>(weights.x);
+    sample.v = static_cast<float>(weights.y);
+    return shapes::set_sample(surface_of(weights), shapes::usable_density(seen.pdf(point_of(weights))),
+                              sample);
+  }
+
+  float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
+    const shapes::SeenTriangle seen = seen_from(from);
+    return seen.is_seen() ? shapes::usable_density(seen.pdf(Vector3d(point.position))) : 0;
   }
 
  private:
+  shapes::SeenTriangle seen_from(const Vector3f& from) const {
+    return {corners_[0], corners_[1], corners_[2], corners_.normal(), Vector3d(from)};
+  }
+
+  /// `weights` of b and c.
+  Vector3d point_of(const glm::dvec2& weights) const {
+    return corners_[0] + weights.x * (corners_[1] - corners_[0]) + weights.y * (corners_[2] - corners_[0]);
+  }
+
+  SurfacePoint surface_of(const glm::dvec2& weights) const {
+    shapes::SurfaceBound bound;
+    bound.arithmetic = 8 * kDoubleRounding * (glm::length(corners_[0]) + glm::length(corners_.extent()));
+    bound.extent = corners_.extent();
+    return shapes::rounded_surface(point_of(weights), corners_.normal(), bound);
+  }
+
   shapes::TriangleCorners corners_;
   Box3f bounds_;
 };
