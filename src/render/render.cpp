@@ -124,6 +124,7 @@ class ClassicRenderer {
     const std::vector<glm::ivec2>& pixels = sums.pixels();
     std::vector<Color3f> colors(pixels.size());
     std::vector<Ray3f> rays(pixels.size());
+    std::vector<Vector2f> light_points(settings_.samples == 1 ? 0 : pixels.size());
     std::vector<RayCone> cones(has_textures_ ? pixels.size() : 0);
     PixelColors tracer(scene_);
     const bool has_lens = scene_.camera().has_lens();
@@ -136,7 +137,10 @@ class ClassicRenderer {
           cones[i] = camera_cone(scene_, image_, pixels[i], within, lens, rays[i], settings_.samples);
         }
       }
-      tracer.trace(rays, settings_.bounces, colors, cones);
+      for (std::size_t i = 0; i < light_points.size(); ++i) {
+        light_points[i] = point_of_lights(pixels[i], sample);
+      }
+      tracer.trace(rays, settings_.bounces, colors, light_points, cones);
       sums.add(colors, 1);
     }
     sums.store(slice_, settings_.samples);
@@ -168,6 +172,14 @@ class ClassicRenderer {
              }
              return false;
            });
+  }
+
+  // Another point of the same kind, for the places on what shines.
+  Vector2f point_of_lights(const glm::ivec2& pixel, int sample) const {
+    const auto number = static_cast<std::uint32_t>(image_.index(pixel.x, pixel.y));
+    constexpr std::uint32_t kOther = 0x68BC21EBU;
+    return sobol_point(static_cast<std::uint32_t>(sample),
+                       hash_bits(number ^ hash_bits(settings_.seed ^ kOther)));
   }
 
   const Scene& scene_;

@@ -1,7 +1,11 @@
 #include "scene_file/material_library.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
+
+#include "materials/metals.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -9,6 +13,16 @@ namespace {
 struct Row {
   std::string_view name, help, text;
 };
+
+// The measured metals, as they come from the workshop: neither dull nor a mirror.
+constexpr std::string_view kMetalText = "eta {:.3g} {:.3g} {:.3g}  k {:.3g} {:.3g} {:.3g}  roughness {}";
+constexpr double kMetalRoughness = 0.2;
+
+LibraryMaterial measured(std::string_view name, std::string_view help, const ConductorIndex& index,
+                         double roughness) {
+  const Vector3f &eta = index.eta, &k = index.k;
+  return {name, help, fmt::format(kMetalText, eta.x, eta.y, eta.z, k.x, k.y, k.z, roughness)};
+}
 
 // One row registers a material.
 constexpr Row kRows[] = {
@@ -39,6 +53,9 @@ constexpr Row kRows[] = {
 std::span<const LibraryMaterial> material_library() {
   static const std::vector<LibraryMaterial> all = [] {
     std::vector<LibraryMaterial> materials;
+    for (const Metal& metal : metals())
+      materials.push_back(measured(metal.name, "A measured metal.", metal.index, kMetalRoughness));
+    materials.push_back(measured("chrome", "Chromium, polished.", *find_metal("chromium"), 0));
     for (const Row& row : kRows) materials.push_back({row.name, row.help, std::string(row.text)});
     return materials;
   }();

@@ -48,7 +48,7 @@ std::span<const KindRow> all_kinds() {
   static const std::vector<KindRow> rows = [] {
     std::vector<KindRow> all;
     for (const std::span<const KindRow> table :
-         {setting_kinds(), light_kinds(), material_kinds(), texture_kinds(), group_kinds(), shape_kinds(),
+         {setting_kinds(), sky_kinds(), light_kinds(), material_kinds(), texture_kinds(), group_kinds(), shape_kinds(),
           mesh_kinds()}) {
       all.insert(all.end(), table.begin(), table.end());
     }
