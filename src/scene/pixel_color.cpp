@@ -16,11 +16,13 @@ Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, 
 // -------------------------------------------------------------------------------------------------------
 
 void PixelColors::trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors,
-                        std::span<const Vector2f> light_points) {
+                        std::span<const Vector2f> light_points, std::span<const RayCone> cones) {
   if (rays.empty()) return;
   light_points_ = light_points;
   if (levels_.empty()) levels_.resize(1);
   levels_[0].rays.assign(rays.begin(), rays.end());
+  levels_[0].cones.assign(cones.begin(), cones.end());
+  levels_[0].cones.resize(rays.size());
   std::size_t depth = 0;
   for (; static_cast<int>(depth) <= bounces && !levels_[depth].rays.empty(); ++depth) {
     shade(depth, bounces - static_cast<int>(depth));
@@ -41,6 +43,7 @@ void PixelColors::shade(std::size_t depth, int bounces_left) {
   Level* next = bounces_left > 0 ? &levels_[depth + 1] : nullptr;
   if (next != nullptr) {
     next->rays.clear();
+    next->cones.clear();
     next->parent.clear();
     next->share.clear();
     next->origin.clear();
@@ -80,23 +83,26 @@ void PixelColors::shade_hit(std::size_t depth, int bounces_left, std::uint32_t r
   const Material& material = scene_.material_of(hit);
   if (!is_of_paper(material)) {
     Recursion recursion(scene_, light_point(level, ray), rays_);
-    level.colors[ray] = recursion.look_at_layers({seen_along, bounces_left, depth == 0}, hit).color;
+    Sight sight{seen_along, bounces_left, depth == 0};
+    sight.cone = level.cones[ray];
+    level.colors[ray] = recursion.look_at_layers(sight, hit).color;
     return;
   }
   const float shininess = mirror_share(material);
+  const Color3f color = surface_color(scene_, seen_along, hit, material);
   const ShadingPoint point = shading_point(scene_, seen_along, hit, scene_.surface_at(seen_along, hit));
-  const Color3f tint = surface_color(scene_, seen_along, hit, material);
   if (shininess < 1) {
     LitPoint& lit = lit_.emplace_back();
     lit.point = point;
     lit.ray = ray;
-    lit.share = (1 - shininess) * tint;
+    lit.share = (1 - shininess) * color;
     lit.light = 255.0f * scene_.description().ambient;
   }
   if (shininess > 0 && next != nullptr) {
     next->rays.push_back(reflected_ray(seen_along, point));
+    next->cones.push_back(level.cones[ray].at(hit.t));
     next->parent.push_back(ray);
-    next->share.push_back(shininess * tint);
+    next->share.push_back(shininess * color);
     if (!light_points_.empty()) next->origin.push_back(level.origin.empty() ? ray : level.origin[ray]);
   }
 }

@@ -22,8 +22,9 @@ class PixelColors {
   /// colors[i] becomes what rays[i] sees; rays that follow each other should start close together and go the
   /// same way. light_points[i] in [0, 1)^2 is the place on what shines from which light is looked for;
   /// without them it is the middle.
+  /// cones[i] is how much of the picture rays[i] stands for; without them it is a point.
   void trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors,
-             std::span<const Vector2f> light_points = {});
+             std::span<const Vector2f> light_points = {}, std::span<const RayCone> cones = {});
 
   /// How many rays that took so far.
   std::uint64_t rays() const { return rays_; }
@@ -36,6 +37,7 @@ class PixelColors {
     std::vector<std::uint32_t> parent;
     std::vector<Color3f> share;
     std::vector<Color3f> colors;
+    std::vector<RayCone> cones;
     std::vector<std::uint32_t> origin;  // the ray of the first level, where that matters; empty: the same
   };
   // A point that the lights may reach, and what has arrived so far.

@@ -50,15 +50,16 @@ Seen Recursion::look(const Sight& sight) {
   if (!is_of_paper(material) || sight.media.innermost() != nullptr) return look_at_layers(sight, hit);
   const float shininess = mirror_share(material);
   const ShadingPoint point = shading_point(scene_, sight.ray, hit, scene_.surface_at(sight.ray, hit));
-  const Color3f tint = surface_color(scene_, sight.ray, hit, material);
+  const Color3f color = surface_color(scene_, sight.ray, hit, material);
   Seen seen;
-  if (shininess < 1) seen.color += (1 - shininess) * tint * direct_light(point);
+  if (shininess < 1) seen.color += (1 - shininess) * color * direct_light(point);
   if (shininess > 0 && sight.bounces_left > 0) {
     Sight mirrored = sight;
     mirrored.ray = reflected_ray(sight.ray, point);
     mirrored.bounces_left = sight.bounces_left - 1;
     mirrored.is_camera = false;
-    seen.color += shininess * tint * look(mirrored).color;
+    mirrored.cone = sight.cone.at(hit.t);
+    seen.color += shininess * color * look(mirrored).color;
   }
   return seen;
 }
@@ -135,8 +136,9 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
   if (own.is_area_light && !own.is_visible && sight.is_camera) return look_behind(sight, hit);
   SurfacePoint point = scene_.surface_at(sight.ray, hit);
   std::optional<Material> textured;
-  if (own.textures != nullptr || scene_.has_vertex_colors())
-    textured = scene_.textured(sight.ray, hit, 0, point);
+  if (own.textures != nullptr || (scene_.has_vertex_colors() && own.takes_vertex_colors)) {
+    textured = scene_.textured(sight.ray, hit, sight.cone.at(hit.t).width, point);
+  }
   const Material& material = textured ? *textured : own;
 
   const float length = glm::length(sight.ray.direction);
@@ -171,7 +173,11 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
     if (!bsdf.is_delta()) seen.color += lit_by_lights(surface, bsdf);
     const Shares shares = shares_of(surface);
     seen.color += 255.0f * shares.ambient * scene_.description().ambient;
-    if (sight.bounces_left > 0) seen.color += look_on(sight, surface, shares);
+    if (sight.bounces_left > 0) {
+      Sight wider = sight;
+      wider.cone = sight.cone.at(hit.t);
+      seen.color += look_on(wider, surface, shares);
+    }
   }
   if (const float alpha = scene_.alpha_at(sight.ray, hit); alpha < 1) {
     const Seen behind_it = look_behind(sight, hit);

@@ -5,6 +5,16 @@
 
 namespace raytracer {
 
+/// How wide the part of the picture is that a ray stands for: at distance t of a ray with unit direction,
+/// width + t * spread. Textures are averaged over it.
+struct RayCone {
+  float width = 0;
+  float spread = 0;
+
+  /// Of a ray that goes on from there.
+  RayCone at(float t) const { return {width + t * spread, spread}; }
+};
+
 struct ShadingPoint {
   Vector3f position;
   Vector3f normal;           ///< geometric, unit length, turned towards where the ray came from

@@ -53,7 +53,8 @@ void BlockContext::report_bad_shape(std::string_view problem) {
 // Notes a property as given; false where it was given before, which is an error unless it places the block.
 bool BlockContext::accept(const PropertyRow& row, const Place& place) {
   const Given* first = given(row.name);
-  const bool repeatable = is_placing(row) && row.name != "pivot" && row.name != "matrix";
+  const bool repeatable =
+      row.is_repeatable || (is_placing(row) && row.name != "pivot" && row.name != "matrix");
   if (first != nullptr && !repeatable) {
     builder_.diagnostics_.error(place, fmt::format("'{}' is given twice", row.name), {},
                                 {{first->place, "first given here"}});
@@ -112,7 +113,11 @@ void BlockContext::report_unknown_property(Span name) {
 
 void BlockContext::store(const PropertyRow& row, const Argument& argument, void* input) {
   if (parameters_ == nullptr) {
-    if (!argument.is_display || builder_.method_ == Method::kClassic) return row.store(input, argument);
+    const bool is_number =
+        row_.block_class == BlockClass::kTexture && builder_.texture_meaning_ != TextureMeaning::kLight;
+    if (!argument.is_display || builder_.method_ == Method::kClassic || is_number) {
+      return row.store(input, argument);
+    }
     Argument linear = argument;
     for (std::size_t i = 0; i < 3; ++i) linear.numbers[i] = linear_from_display(argument.numbers[i]);
     return row.store(input, linear);
@@ -144,6 +149,15 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
     return false;
   }
   if (!accept(*row, place(property.whole()))) return false;
+  if (row->store_texture != nullptr && parameters_ == nullptr) {
+    if (const auto is_sound = fill_texture_item(*row, property, input)) return *is_sound;
+  }
+  if (property.body != nullptr) {
+    builder_.diagnostics_.error(place(property.body->header()),
+                                fmt::format("'{}' takes {}, found a block", row->name, describe_type(*row)),
+                                fmt::format("{} {}", row->name, example_value(*row)));
+    return false;
+  }
   const auto argument = read_argument(*row, property, *around_.source, around_.frame->values,
                                       builder_.evaluator_, builder_.diagnostics_);
   if (!argument) return false;
@@ -172,7 +186,7 @@ void BlockContext::note_material() {
 }
 
 // A block inside this one: a material in place, a child, or a mistake.
-bool BlockContext::fill_block(const BlockNode& block) {
+bool BlockContext::fill_block(const BlockNode& block, void* input) {
   const std::string_view word = around_.source->text(block.kind);
   const PropertyRow* row = find_property(row_, word);
   if (row != nullptr && row->type == PropertyType::kMaterial && block.words.empty()) {
@@ -180,6 +194,9 @@ bool BlockContext::fill_block(const BlockNode& block) {
     material_ = builder_.build_inline_material(block, around_);
     note_material();
     return material_.has_value();
+  }
+  if (row != nullptr && row->store_texture != nullptr && block.words.size() == 1 && parameters_ == nullptr) {
+    return accept(*row, place(block.header())) && fill_texture_block(*row, block, input);
   }
   if (row != nullptr && (row->type != PropertyType::kMaterial || !row_.has_children)) {
     const bool names_material = row->type == PropertyType::kMaterial;
@@ -222,7 +239,7 @@ bool BlockContext::fill_items(void* input) {
     if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
       sound = fill_item(**property, input) && sound;
     } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
-      sound = fill_block(**block) && sound;
+      sound = fill_block(**block, input) && sound;
     } else if (const auto* let = std::get_if<const LetNode*>(&item)) {
       builder_.build_let(**let, around_, let_base_, false);
     } else if (!row_.has_children && node_.is_closed) {
@@ -309,6 +326,9 @@ void BlockContext::warn_of_solid_sheet(const Material& material) {
 void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
   builder_.note_shape(header());
   const std::uint32_t material = material_.value_or(around_.material);
+  if (!name_.empty() && shape->bounds().is_finite()) {
+    builder_.draft_.named_shapes.try_emplace(std::string(name_), shape->bounds());
+  }
   if (row_.is_sheet) warn_of_solid_sheet(builder_.draft_.scene.materials[material]);
   builder_.store_.add(std::move(shape), material, depends_on_time());
 }

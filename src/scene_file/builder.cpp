@@ -189,7 +189,7 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
     return i < block.words.size() ? around.source->text(block.words[i]) : std::string_view();
   };
   const KindRow* plain = find_kind(word);
-  if (plain == nullptr) {
+  if (plain == nullptr && (!may_have_variant(word) || block.words.empty())) {
     report_unknown_kind(block, around);
     return nullptr;
   }
@@ -204,7 +204,7 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
   for (const KindRow& row : all_kinds()) {
     if (row.name == word && !row.variant.empty()) variants.push_back(row.variant);
   }
-  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty()) return plain;
+  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty() && plain != nullptr) return plain;
   report_unknown_variant(block, around);
   return nullptr;
 }
@@ -248,6 +248,7 @@ void Builder::build_block(const BlockNode& block, const Surroundings& around) {
   const KindRow* row = resolve_kind(block, around, name);
   if (row == nullptr || !check_standing(*row, block, around)) return;
   if (row->block_class == BlockClass::kMaterial) return build_material(*row, block, name, around);
+  if (row->block_class == BlockClass::kTexture) return build_named_texture(*row, block, name, around);
   register_name(*row, name, {around.source, block.header()}, around);
   const SceneRecorder::Block recorded(recorder(), *row, name);
   BlockContext context(*this, *row, block, around, name);
@@ -315,7 +316,9 @@ std::optional<std::uint32_t> Builder::find_material(std::string_view name, const
   }
   std::vector<std::string_view> known;
   for (std::size_t i = 0; i < materials_.height(); ++i) {
-    if (around.frame->materials.shows(i)) known.push_back(files_.names().text(materials_.at(i).name));
+    const std::string_view other = files_.names().text(materials_.at(i).name);
+    const bool is_texture = other.find(' ') != std::string_view::npos;
+    if (!is_texture && around.frame->materials.shows(i)) known.push_back(other);
   }
   for (const LibraryMaterial& row : material_library()) known.push_back(row.name);
   const std::string_view nearest = nearest_word(name, known);

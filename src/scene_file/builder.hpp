@@ -21,6 +21,7 @@
 #include "scene_file/schema.hpp"
 #include "scene_file/shape_store.hpp"
 #include "scene_file/syntax.hpp"
+#include "textures/texel_pyramid.hpp"
 
 namespace raytracer::scene_file {
 
@@ -71,6 +72,13 @@ struct Surroundings {
   bool is_unclosed = false;  ///< the block around lacks its '}': what stands in it may belong elsewhere
 };
 
+/// A texture of the scene.
+struct BuiltTexture {
+  TexturePointer texture;
+  bool depends_on_time = false;
+  std::string json;  ///< as the recorder writes it; empty unless it listens
+};
+
 /// One block on its way to become real. The rows' build functions see the builder through it.
 class BlockContext {
  public:
@@ -94,6 +102,9 @@ class BlockContext {
   /// From the block's own space to the world; `spot` is its own middle.
   Transform placed(const Vector3d& spot) const { return around_.to_world * placing_.about(spot); }
 
+  /// Likewise, whatever stands around it: textures lie in the world.
+  Transform own_placing() const { return placing_.about(Vector3d(0)); }
+
   /// Adds what `make()` returns with the block's material; an Error it throws becomes a message at the block.
   template <class Make>
   void add_shape(const Make& make) {
@@ -107,9 +118,20 @@ class BlockContext {
   /// What add_shape() makes from here on is made of it, whatever the block says.
   void use_material(std::uint32_t index) { material_ = index; }
   /// Adds the mesh in a file that `property` names.
-  void add_mesh_file(std::string_view property, const std::string& file, MeshOptions options);
+  void add_mesh_file(std::string_view property, const std::string& file, const MeshOptions& options);
   void build_children();
   std::uint32_t add_material(const Material& material);
+
+  /// The block is a texture: this one.
+  void set_texture(TexturePointer texture);
+  /// What the values of the picture in the file mean where this block stands.
+  TextureMeaning texture_meaning() const;
+  /// The picture in a file that the block names, made ready for a use. Null where it can't be had, which has
+  /// then been reported at `property`.
+  std::shared_ptr<const TexelPyramid> pyramid(std::string_view property, const std::string& file,
+                                              const TexelUse& use);
+  /// Likewise as the file has it.
+  std::shared_ptr<const Picture> picture(std::string_view property, const std::string& file);
 
  private:
   friend class Builder;
@@ -122,7 +144,18 @@ class BlockContext {
   void report_bad_shape(std::string_view problem);
   bool fill_items(void* input);
   bool fill_item(const PropertyNode& property, void* input);
-  bool fill_block(const BlockNode& block);
+  bool fill_block(const BlockNode& block, void* input);
+  /// Nothing where the property has no texture but a value like any other.
+  std::optional<bool> fill_texture_item(const PropertyRow& row, const PropertyNode& property, void* input);
+  bool fill_texture_block(const PropertyRow& row, const BlockNode& block, void* input);
+  bool fill_texture_file(const PropertyRow& row, const PropertyNode& property, void* input);
+  bool fill_expression(const PropertyRow& row, const PropertyNode& property, void* input);
+  const Expression* expression_at_point(const PropertyNode& property);
+  bool store_texture(const PropertyRow& row, const BuiltTexture& texture, void* input);
+  const KindRow* find_texture_row(Span word);
+  template <class Read>
+  auto read_picture_file(std::string_view property, const std::string& file, const Read& read)
+      -> decltype(read(file));
   void note_material();
   bool check_required();
   bool accept(const PropertyRow& row, const Place& place);
@@ -257,6 +290,12 @@ class Builder {
                      const Surroundings& around);
   std::optional<std::uint32_t> find_material(std::string_view name, const Place& place,
                                              const Surroundings& around);
+  TextureMeaning color_meaning() const;
+  std::optional<BuiltTexture> build_texture(const KindRow& row, const BlockNode& block, std::string_view name,
+                                            const Surroundings& around);
+  void build_named_texture(const KindRow& row, const BlockNode& block, std::string_view name,
+                           const Surroundings& around);
+  const BuiltTexture* find_texture(std::string_view name, const Surroundings& around);
   std::optional<std::uint32_t> find_library_material(std::string_view name);
   const BlockNode* find_later_material(std::string_view name, const Place& place) const;
   std::optional<std::uint32_t> build_inline_material(const BlockNode& block, const Surroundings& around);
@@ -294,6 +333,9 @@ class Builder {
   std::uint64_t shapes_made_ = 0, lights_made_ = 0;
   bool halted_ = false;
   std::optional<std::uint32_t> last_material_;
+  TexturePointer last_texture_;
+  std::vector<BuiltTexture> named_textures_;  // their names are among the materials': "texture oak"
+  TextureMeaning texture_meaning_ = TextureMeaning::kDisplay;
 
   // Materials of the library that the scene has named.
   struct LibraryText {

@@ -232,6 +232,12 @@ double linear_from_display(double value) {
   return std::copysign(linear, value);
 }
 
+double display_from_linear(double value) {
+  const double size = std::abs(value);
+  const double display = size <= 0.0031308 ? size * 12.92 : 1.055 * std::pow(size, 1 / 2.4) - 0.055;
+  return std::copysign(display, value);
+}
+
 Vector3d hexadecimal_color(std::string_view text) {
   std::uint32_t digits = 0;
   std::from_chars(text.data() + 1, text.data() + text.size(), digits, 16);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/suggest.hpp"
 #include "raytracer/error.hpp"
 #include "scene_file/method.hpp"
 
@@ -19,7 +20,19 @@ struct FieldOfView {
   double half_width, half_height;  // tangents of the half angles
 };
 
+// A fisheye's picture shows angles, not tangents.
+FieldOfView fisheye_view(const CameraDraft& camera, double aspect) {
+  constexpr double kHalfSpace = 180;
+  if (camera.vertical_fov_degrees) {
+    const double half_height = glm::radians(*camera.vertical_fov_degrees) / 2;
+    return {half_height * aspect, half_height};
+  }
+  const double half_width = glm::radians(camera.fov_degrees.value_or(kHalfSpace)) / 2;
+  return {half_width, half_width / aspect};
+}
+
 FieldOfView field_of_view(const CameraDraft& camera, double aspect) {
+  if (camera.optics.projection == Projection::kFisheye) return fisheye_view(camera, aspect);
   if (camera.vertical_fov_degrees) {
     const double half_height = std::tan(glm::radians(*camera.vertical_fov_degrees) / 2);
     return {half_height * aspect, half_height};
@@ -79,16 +92,69 @@ const CameraDraft& chosen_camera(const SceneDraft& draft, const std::string& nam
                                         : fmt::format("it has {}", fmt::join(known, ", "))));
 }
 
-// Whether a box lies wholly outside of the pyramid that the camera sees.
+// How far away is sharp. Nothing where the shape that shall be is not there, which has been reported.
+std::optional<double> focus_distance(const CameraDraft& camera, const SceneDraft& draft,
+                                     Diagnostics& diagnostics) {
+  const Vector3d view = camera.look_at - camera.position;
+  if (camera.focus_on.empty()) return camera.focus.value_or(glm::length(view));
+  const auto shape = draft.named_shapes.find(camera.focus_on);
+  if (shape == draft.named_shapes.end()) {
+    std::vector<std::string_view> known;
+    for (const auto& named : draft.named_shapes) known.push_back(named.first);
+    const std::string_view nearest = nearest_word(camera.focus_on, known);
+    diagnostics.error(camera.focus_place, fmt::format("there is no shape '{}'", camera.focus_on),
+                      nearest.empty() ? "a shape's name stands in front of its brace: sphere ball { … }"
+                                      : fmt::format("did you mean '{}'?", nearest));
+    return std::nullopt;
+  }
+  const double distance = glm::dot(Vector3d(shape->second.center()) - camera.position, glm::normalize(view));
+  if (distance > 0) return distance;
+  diagnostics.error(camera.focus_place, fmt::format("'{}' lies behind the camera", camera.focus_on));
+  return std::nullopt;
+}
+
+Optics optics_of(const CameraDraft& camera, const SceneDraft& draft, double aspect,
+                 Diagnostics& diagnostics) {
+  Optics optics = camera.optics;
+  optics.focus_distance = focus_distance(camera, draft, diagnostics).value_or(1);
+  // Two eyes share the picture's width.
+  const double shape = optics.eye_distance > 0 ? aspect / 2 : aspect;
+  const FieldOfView fov = field_of_view(camera, shape);
+  optics.half_width = fov.half_width;
+  optics.half_height = fov.half_height;
+  if (optics.projection == Projection::kOrthographic) {
+    const double distance = glm::length(camera.look_at - camera.position);
+    optics.half_width = camera.width ? *camera.width / 2 : fov.half_width * distance;
+    optics.half_height = optics.half_width / shape;
+  }
+  optics.cube_columns = shape < 3 ? 3 : 6;  // 3 to 2, or 6 to 1
+  return optics;
+}
+
+// Whether a box lies wholly outside of the pyramid that a flat picture shows. An orthographic camera's is a
+// prism; what a lens, or a second eye, sees besides is `reach` wider where it starts.
 bool is_outside_of_view(const Box3f& box, const Camera& camera) {
+  if (camera.sees_all_around()) return false;
   const Vector3d eye = camera.position(), forward = camera.forward(), right = camera.right(),
                  up = camera.up();
+  if (camera.projection() == Projection::kOrthographic) {
+    const auto is_beyond = [&](const Vector3d& normal, double most) {
+      return std::ranges::all_of(corners(box), [&](const Vector3d& corner) {
+        return glm::dot(corner - eye, normal) > most * glm::dot(normal, normal);
+      });
+    };
+    return is_beyond(-forward, 0) || is_beyond(right, 1) || is_beyond(-right, 1) || is_beyond(up, 1) ||
+           is_beyond(-up, 1);
+  }
   const double width2 = glm::dot(right, right), height2 = glm::dot(up, up);
   const Vector3d normals[] = {forward, width2 * forward + right, width2 * forward - right,
                               height2 * forward + up, height2 * forward - up};
   for (const Vector3d& normal : normals) {
+    const double reach = static_cast<double>(camera.reach()) * glm::length(normal);
     bool all_behind = true;
-    for (const Vector3d& corner : corners(box)) all_behind = all_behind && glm::dot(corner - eye, normal) < 0;
+    for (const Vector3d& corner : corners(box)) {
+      all_behind = all_behind && glm::dot(corner - eye, normal) < -reach;
+    }
     if (all_behind) return true;
   }
   return false;
@@ -286,8 +352,9 @@ RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::
     diagnostics.warning(name, "the scene has no camera", "one is placed so that all shapes are in view");
   }
   const CameraDraft& camera = chosen_camera(draft, options.camera);
-  const FieldOfView fov = field_of_view(camera, aspect);
-  scene.camera = Camera(camera.position, camera.look_at, camera.up, fov.half_width, fov.half_height);
+  scene.camera =
+      Camera(camera.position, camera.look_at, camera.up, optics_of(camera, draft, aspect, diagnostics));
+  if (settings.method == Method::kPath) settings.development.exposure += static_cast<float>(camera.exposure);
   if (depends_on_time && camera.shutter > 0) {
     settings.shutter = camera.shutter / draft.fps;
     warn_of_ghosts(camera, settings.samples, diagnostics);

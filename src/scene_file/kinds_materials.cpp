@@ -2,11 +2,13 @@
 // extensions.
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string_view>
 
 #include "scene_file/builder.hpp"
 #include "scene_file/kinds.hpp"
+#include "textures/patterns.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -31,28 +33,38 @@ struct MaterialInput {
   double emission_strength = 1;
   double alpha = 1;
   bool energy_compensation = true;
+  MaterialTextures textures;
+  std::optional<ColorValue> normal_map;
+  std::optional<double> bump;
+  double normal_scale = 1, bump_scale = 1;
 };
 constexpr PropertyRow kMaterial[] = {
     property<&MaterialInput::color>("color", "The share of light that it returns, or lets through.")
         .within(kShare)
-        .or_else("0.8; 1 with transmission, or eta and k"),
-    property<&MaterialInput::shininess>("shininess", "0 is matt, 1 all mirror, between is partly both."),
+        .or_else("0.8; 1 with transmission, or eta and k")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::color>(),
+    property<&MaterialInput::shininess>("shininess", "0 is matt, 1 all mirror, between is partly both.")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::shininess>(),
     property<&MaterialInput::roughness>(
         "roughness", "0 is polished, 1 dull. It, ior or specular puts a layer over the colour.")
         .within(kShare)
-        .or_else("0.3; 0 with transmission"),
+        .or_else("0.3; 0 with transmission")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::roughness>(),
     property<&MaterialInput::metallic>("metallic", "1 is metal, which reflects in its colour.")
         .within(kShare)
-        .or_else("0"),
+        .or_else("0")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::metallic>(),
     property<&MaterialInput::ior>("ior", "How strongly it refracts: water 1.33, glass 1.5, diamond 2.42.")
         .within(kIndexOfRefraction)
         .or_else("1.5"),
     property<&MaterialInput::specular>("specular", "The strength of the layer's reflection.")
         .within(kShare)
-        .or_else("1"),
+        .or_else("1")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::specular>(),
     property<&MaterialInput::transmission>("transmission",
                                            "1 is clear: light goes in instead of coming back.")
-        .within(kShare),
+        .within(kShare)
+        .or_texture<&MaterialInput::textures, &MaterialTextures::transmission>(),
     property<&MaterialInput::thin>("thin", "A sheet without an inside, as a soap bubble or a pane."),
     property<&MaterialInput::attenuation_color>(
         "attenuation_color", "What white light has become after attenuation_distance inside.")
@@ -62,15 +74,22 @@ constexpr PropertyRow kMaterial[] = {
         .in("scene units")
         .within(kPositive)
         .or_else("endless: clear"),
-    property<&MaterialInput::emission>("emission", "What it gives off; 1 is white.").within(kBrightness),
+    property<&MaterialInput::emission>("emission", "What it gives off; 1 is white.")
+        .within(kBrightness)
+        .or_texture<&MaterialInput::textures, &MaterialTextures::emission>(),
     property<&MaterialInput::emission_strength>("emission_strength", "Times emission.").within(kBrightness),
     property<&MaterialInput::coat>("coat", "The share of it that has a clear coat over all else.")
-        .within(kShare),
-    property<&MaterialInput::coat_roughness>("coat_roughness", "The roughness of the coat.").within(kShare),
+        .within(kShare)
+        .or_texture<&MaterialInput::textures, &MaterialTextures::coat>(),
+    property<&MaterialInput::coat_roughness>("coat_roughness", "The roughness of the coat.")
+        .within(kShare)
+        .or_texture<&MaterialInput::textures, &MaterialTextures::coat_roughness>(),
     property<&MaterialInput::anisotropy>("anisotropy", "Brushed: highlights grow along u (> 0) or across.")
-        .within(kEvenly),
+        .within(kEvenly)
+        .or_texture<&MaterialInput::textures, &MaterialTextures::anisotropy>(),
     property<&MaterialInput::alpha>("alpha", "Below 1 it is there for that share of the light only.")
-        .within(kShare),
+        .within(kShare)
+        .or_texture<&MaterialInput::textures, &MaterialTextures::alpha>(),
     property<&MaterialInput::energy_compensation>(
         "energy_compensation", "Gives rough surfaces the light back that is scattered more than once."),
     property<&MaterialInput::eta>("eta", "A measured metal: its index of refraction for red, green and blue.")
@@ -81,6 +100,17 @@ constexpr PropertyRow kMaterial[] = {
         .within(kMetalAbsorption)
         .as(PropertyType::kVector)
         .or_else("no measured metal"),
+    property<&MaterialInput::normal_map>("normal_map",
+                                         "Bends the normal: red, green, blue are along u, v and away.")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::normal_map>()
+        .for_textures_alone()
+        .or_else("none"),
+    property<&MaterialInput::normal_scale>("normal_scale", "How strongly it does.").within({-100, 100}),
+    property<&MaterialInput::bump>("bump", "Heights that bend the normal, as if they were there.")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::bump>()
+        .for_textures_alone()
+        .or_else("none"),
+    property<&MaterialInput::bump_scale>("bump_scale", "The height of 1.").in("scene units"),
 };
 
 constexpr std::string_view kWordsToCome[] = {"sheen_color", "iridescence", "dispersion"};
@@ -138,6 +168,23 @@ void warn_of_idle_words(const MaterialInput& in, BlockContext& block) {
   }
 }
 
+// Null where there are none.
+std::shared_ptr<const MaterialTextures> textures_of(const MaterialInput& in) {
+  MaterialTextures textures = in.textures;
+  const auto rescale = [](TexturePointer& texture, const Color3f& around, const Color3f& factor) {
+    if (texture && factor != Color3f(1)) texture = make_rescaled(texture, around, factor);
+  };
+  const auto bend = static_cast<float>(in.normal_scale);
+  rescale(textures.normal_map, Color3f(0.5f), {bend, bend, 1});
+  rescale(textures.bump, Color3f(0), Color3f(in.bump_scale));
+  rescale(textures.emission, Color3f(0), Color3f(in.emission_strength));
+  const bool has_any = textures.color || textures.shininess || textures.roughness || textures.metallic ||
+                       textures.specular || textures.transmission || textures.emission || textures.coat ||
+                       textures.coat_roughness || textures.anisotropy || textures.alpha ||
+                       textures.normal_map || textures.bump;
+  return has_any ? std::make_shared<const MaterialTextures>(std::move(textures)) : nullptr;
+}
+
 void build_material(const MaterialInput& in, BlockContext& block) {
   if (!is_consistent(in, block)) return;
   warn_of_idle_words(in, block);
@@ -169,6 +216,7 @@ void build_material(const MaterialInput& in, BlockContext& block) {
   material.emission = Color3f(emission);
   material.alpha = static_cast<float>(in.alpha);
   material.energy_compensation = in.energy_compensation;
+  material.textures = textures_of(in);
   block.add_material(material);
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kLength = "scene units";
 constexpr std::string_view kDegrees = "degrees";
-constexpr Range kFieldOfView{0.001, 179, false};
+constexpr Range kFieldOfView{0.001, 360, false};
+constexpr double kWidestFlat = 179;  // degrees: beyond, no flat picture shows it
 constexpr Range kExposure{-100, 100, false};
 
 struct ImageInput {
@@ -31,8 +32,20 @@ struct CameraInput {
   std::optional<Vector3d> look_at;
   Vector3d up{0, 1, 0};
   std::optional<double> fov, vertical_fov;
+  Projection projection = Projection::kPerspective;
+  std::optional<double> width;
+  double aperture = 0;
+  std::optional<double> f_number, focal_length, focus;
+  std::string focus_on;
+  int blades = 0;
+  double blade_rotate = 0;
+  std::array<double, 2> shift{0, 0}, tilt{0, 0};
+  double stereo = 0;
+  std::optional<double> iso, shutter_speed;
   double shutter = 0;
 };
+constexpr std::string_view kProjections[] = {"perspective", "orthographic", "fisheye", "panorama",
+                                             "cube_map"};
 constexpr PropertyRow kCamera[] = {
     property<&CameraInput::position>("position", "Where the eye is.").in(kLength),
     property<&CameraInput::look_at>("look_at", "The point in the middle of the picture.")
@@ -48,16 +61,112 @@ constexpr PropertyRow kCamera[] = {
         .in(kDegrees)
         .within(kFieldOfView)
         .or_else("follows from fov"),
+    property<&CameraInput::projection>("projection", "How what is around the eye becomes a flat picture.")
+        .one_of(kProjections),
+    property<&CameraInput::width>("width", "Of what an orthographic camera shows.")
+        .in(kLength)
+        .within(kPositive)
+        .or_else("as wide as fov shows at look_at"),
+    property<&CameraInput::aperture>("aperture", "The radius of the lens; 0 shows everything sharp.")
+        .in(kLength)
+        .within(kNotNegative),
+    property<&CameraInput::focal_length>("focal_length", "With f_number, in place of aperture.")
+        .in(kLength)
+        .within(kPositive)
+        .or_else("none"),
+    property<&CameraInput::f_number>("f_number", "The focal length divided by the lens's diameter.")
+        .within(kPositive)
+        .or_else("none"),
+    property<&CameraInput::focus>("focus", "How far away what is sharp is, along the view.")
+        .in(kLength)
+        .within(kPositive)
+        .or_else("the distance to look_at"),
+    property<&CameraInput::focus_on>("focus_on", "The name of a shape to be sharp, in place of focus.")
+        .as(PropertyType::kName)
+        .or_else("none"),
+    property<&CameraInput::blades>("blades", "The corners of the lens's opening; 0 is round.")
+        .within({0, 100}),
+    property<&CameraInput::blade_rotate>("blade_rotate", "Turns them, counter-clockwise.").in(kDegrees),
+    property<&CameraInput::shift>("shift",
+                                  "Moves the view right and up, in widths and heights of the picture.")
+        .within({-100, 100}),
+    property<&CameraInput::tilt>("tilt", "Turns the plane that is sharp: the right, and the top, away.")
+        .in(kDegrees)
+        .within({-89, 89}),
+    property<&CameraInput::stereo>("stereo", "How far two eyes are apart; the left one's picture is left.")
+        .in(kLength)
+        .within(kNotNegative),
+    property<&CameraInput::iso>("iso",
+                                "Path alone: the film's speed; with it the exposure is a photograph's.")
+        .within({1, 1e7})
+        .or_else("100"),
+    property<&CameraInput::shutter_speed>("shutter_speed", "Likewise: how long the film is exposed.")
+        .in("seconds")
+        .within({1e-6, 1e6})
+        .or_else("1"),
     property<&CameraInput::shutter>("shutter",
                                     "The share of a frame's time that it is open: blurs what moves.")
         .within(kShare),
 };
+// The lens and all else but where it looks; nothing where that contradicts itself, which has been reported.
+std::optional<Optics> optics_of(const CameraInput& in, BlockContext& block) {
+  Optics optics;
+  optics.projection = in.projection;
+  optics.lens_radius = in.aperture;
+  if (in.focal_length) {
+    if (!in.f_number || block.is_given("aperture")) {
+      block.error(in.f_number ? "aperture" : "focal_length",
+                  "a lens has either 'aperture' or 'focal_length' and 'f_number'",
+                  in.f_number ? "remove 'aperture'" : "f_number 2.8");
+      return std::nullopt;
+    }
+    optics.lens_radius = *in.focal_length / (2 * *in.f_number);
+  } else if (in.f_number && !in.iso && !in.shutter_speed) {
+    block.error("f_number", "'f_number' needs 'focal_length' to make a lens, or 'iso' to make an exposure",
+                "focal_length 0.05");
+    return std::nullopt;
+  }
+  optics.blades = in.blades;
+  optics.blade_turn = glm::radians(in.blade_rotate);
+  optics.shift_x = in.shift[0];
+  optics.shift_y = in.shift[1];
+  optics.tilt_x = glm::radians(in.tilt[0]);
+  optics.tilt_y = glm::radians(in.tilt[1]);
+  optics.eye_distance = in.stereo;
+  return optics;
+}
+
+// In stops: none at ISO 100, one second and f/1 (ISO 2720: the exposure is time * speed / f-number^2).
+double exposure_of(const CameraInput& in) {
+  if (!in.iso && !in.shutter_speed) return 0;
+  const double f_number = in.f_number.value_or(1);
+  return std::log2(in.shutter_speed.value_or(1) * in.iso.value_or(100) / 100 / (f_number * f_number));
+}
+
 void build_camera(const CameraInput& in, BlockContext& block) {
   if (in.fov && in.vertical_fov) {
     return block.error("vertical_fov", "a camera has either 'fov' or 'vertical_fov'", "remove one of them");
   }
+  for (const std::string_view word : {"fov", "vertical_fov"}) {
+    const double angle = (word == "fov" ? in.fov : in.vertical_fov).value_or(0);
+    if (angle <= kWidestFlat || in.projection == Projection::kFisheye) continue;
+    return block.error(word,
+                       fmt::format("'{}' must be between 0.001 and {}, found {}", word, kWidestFlat, angle),
+                       "projection fisheye shows more");
+  }
+  if (in.focus && !in.focus_on.empty()) {
+    return block.error("focus_on", "a camera has either 'focus' or 'focus_on'", "remove one of them");
+  }
+  const std::optional<Optics> optics = optics_of(in, block);
+  if (!optics) return;
   const Transform world = block.placed(in.position);
   CameraDraft camera;
+  camera.optics = *optics;
+  camera.width = in.width;
+  camera.focus = in.focus;
+  camera.focus_on = in.focus_on;
+  camera.focus_place = block.place_of("focus_on");
+  camera.exposure = exposure_of(in);
   camera.name = block.name();
   camera.place = block.header();
   camera.position = world.point(in.position);

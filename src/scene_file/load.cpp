@@ -123,6 +123,10 @@ class ScenesOverTime {
   void build(Builder& builder, double time, Diagnostics& diagnostics) const {
     scene_file::apply_settings(text_->options.settings, *text_->files, builder);
     builder.build(*text_->tree);
+    require_no_errors(time, diagnostics);
+  }
+
+  static void require_no_errors(double time, Diagnostics& diagnostics) {
     if (!diagnostics.has_errors()) return;
     throw Error(ErrorKind::kScene,
                 fmt::format("the scene is wrong at t = {}:\n{}", time, all_messages(diagnostics)));
@@ -146,6 +150,7 @@ class ScenesOverTime {
     evaluated.time = time;
     const RenderSettings settings =
         scene_file::finish(builder.draft(), text_->options, text_->name, depends_on_time_, diagnostics);
+    require_no_errors(time, diagnostics);
     if (with_moment) evaluated.moment = {settings, hasher.finish(settings, text_->options.camera)};
     evaluated.description = std::move(builder.draft().scene);
     return evaluated;
@@ -202,6 +207,9 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
     scene_file::SceneDraft& draft = builder.draft();
     loaded.depends_on_time = builder.evaluator().uses_time();
     loaded.settings = scene_file::finish(draft, options, name, loaded.depends_on_time, diagnostics);
+  }
+  if (!diagnostics.has_errors()) {
+    scene_file::SceneDraft& draft = builder.draft();
     loaded.shapes = builder.shapes_made();
     loaded.animation = {draft.duration, draft.fps};
     scene_text->fps = draft.fps;

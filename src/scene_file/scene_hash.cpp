@@ -4,7 +4,7 @@ namespace raytracer::scene_file {
 namespace {
 
 // What stands between the properties, so that no two scenes make the same sequence.
-constexpr std::uint64_t kBegin = 1, kEnd = 2, kProperty = 3;
+constexpr std::uint64_t kBegin = 1, kEnd = 2, kProperty = 3, kContent = 4;
 
 // More frames of the same film leave those that are there as they are.
 bool goes_into_pixels(const KindRow& kind) { return kind.name != "animation"; }
@@ -34,6 +34,18 @@ void SceneHasher::add(const PropertyRow& property, const Argument& argument) {
   for (const double number : argument.list) hasher_.add(number);
   hasher_.add(std::uint64_t{argument.list.size()});
   hasher_.add(std::uint64_t{argument.index} << 1U | (argument.is_display ? 1U : 0U));
+}
+
+void SceneHasher::number_texture(const void* texture) {
+  texture_numbers_[texture] = texture_numbers_.size() + 1;
+}
+
+void SceneHasher::add_texture(std::string_view property, const void* texture) {
+  if (!is_seen_) return;
+  hasher_.add(kContent);
+  hasher_.add(property);
+  const auto known = texture_numbers_.find(texture);
+  hasher_.add(known == texture_numbers_.end() ? 0 : known->second);
 }
 
 void SceneHasher::add_content(const SceneHash& content) {
