@@ -16,11 +16,12 @@ void ShapeStore::add(std::unique_ptr<Shape> shape, std::uint32_t material, bool 
   list.add(std::move(shape), material);
 }
 
-void ShapeStore::add_instance(const std::shared_ptr<const SharedShapes>& shared, const Transform& to_world) {
+void ShapeStore::add_instance(const std::shared_ptr<const SharedShapes>& shared, const Transform& to_world,
+                              std::uint32_t material) {
   const auto [known, is_new] =
       shared_index_.try_emplace(shared.get(), static_cast<std::uint32_t>(shared_.size()));
   if (is_new) shared_.push_back(shared);
-  instances_.push_back({known->second, glm::mat3(to_world.linear), Vector3f(to_world.translation)});
+  instances_.push_back({known->second, glm::mat3(to_world.linear), Vector3f(to_world.translation), material});
 }
 
 std::shared_ptr<const SharedShapes> ShapeStore::find_kept(const std::string& key) const {
@@ -74,6 +75,7 @@ std::string use_key(const void* owner, const std::vector<Value>& arguments, std:
   for (const Value& value : arguments) {
     add(&value.type, sizeof value.type);
     key += value.depends_on_time ? '1' : '0';
+    key += value.is_display ? '1' : '0';
     for (int i = 0; i < 3; ++i) add(&value.vector[i], sizeof(double));
     key += value.text;
     key += '\0';
