@@ -49,7 +49,9 @@ struct ConductorSquares {
   alignas(16) float eta2[4], k2[4];
 
   ConductorSquares() = default;
-  explicit ConductorSquares(const ConductorIndex& index, float outside = 1) {
+  /// `outside`: the index of the medium before the metal, where `index` is relative to vacuum. Not explicit:
+  /// it is the same thing in another form.
+  ConductorSquares(const ConductorIndex& index, float outside = 1) {
     for (int c = 0; c < 3; ++c) {
       // Bounds that no metal reaches; also what is not a number ends up at one of them.
       const float eta = std::max(1e-3F, std::min(1e3F, index.eta[c] / outside));
