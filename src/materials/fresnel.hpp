@@ -75,7 +75,9 @@ inline Color3f fresnel_conductor(const ConductorSquares& index, float cosine) {
     const float s_sum = length + cosine2, s_cross = 2 * a * cosine;
     const float p_sum = cosine2 * length + sine2 * sine2, p_cross = s_cross * sine2;
     // s and p = s (p_sum - p_cross) / (p_sum + p_cross), and their mean over one denominator.
-    result[c] = std::min(1.0F, (s_sum - s_cross) * p_sum / ((s_sum + s_cross) * (p_sum + p_cross)));
+    // Where the metal is hardly there, the difference rounds to less than 0.
+    const float s_difference = std::max(0.0F, s_sum - s_cross);
+    result[c] = std::min(1.0F, s_difference * p_sum / ((s_sum + s_cross) * (p_sum + p_cross)));
   }
   return {result[0], result[1], result[2]};
 }
