@@ -19,10 +19,20 @@ def run(*arguments, stdin=b"", cwd=None, env=None, timeout=120, **options):
         timeout=timeout, check=False, **options)
 
 
+IS_SANITIZED = bool(os.environ.get("RAYTRACER_SANITIZED"))
+
+
 def limit_memory(size):
     """For preexec_fn. The address sanitizer reserves terabytes of addresses: its builds go without."""
-    if not os.environ.get("RAYTRACER_SANITIZED"):
+    if not IS_SANITIZED:
         resource.setrlimit(resource.RLIMIT_AS, (size, size))
+
+
+def limit_processor_time(seconds):
+    """For preexec_fn: beyond so much processor time the program is killed. Sanitized builds take many times as long."""
+    if IS_SANITIZED:
+        seconds *= 20
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
 
 
 def open_terminal():

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +17,7 @@
 namespace raytracer {
 
 class Accelerator;
+class LightSet;
 
 /// How many rays a scene takes at once.
 inline constexpr std::size_t kMostRays = 16;
@@ -38,8 +40,10 @@ class SharedShapes {
 
   const Shape& shape(std::uint32_t index) const { return *shapes_[index]; }
   const Material& material_of(std::uint32_t shape) const { return materials_[material_of_[shape]]; }
+  bool is_of_first_material(std::uint32_t shape) const { return material_of_[shape] == 0; }
   std::size_t size() const { return shapes_.size(); }
   const Box3f& bounds() const { return bounds_; }  ///< in the shapes' own space
+  bool has_vertex_colors() const { return has_vertex_colors_; }
   const Accelerator& accelerator() const { return *accelerator_; }
 
  private:
@@ -47,6 +51,7 @@ class SharedShapes {
   std::vector<std::uint32_t> material_of_;
   std::vector<Material> materials_;
   Box3f bounds_;
+  bool has_vertex_colors_ = false;
   std::unique_ptr<Accelerator> accelerator_;
 };
 
@@ -55,6 +60,9 @@ struct Instance {
   std::uint32_t shared = 0;  ///< an index into SceneDescription::shared
   glm::mat3 linear{1.0f};    ///< from the shapes' own space to the world
   Vector3f translation{0};
+  static constexpr std::uint32_t kOwnMaterials = 0xFFFFFFFF;
+  /// An index into SceneDescription::materials: what stands here for the first of the shared materials.
+  std::uint32_t material = kOwnMaterials;
 
   bool is_identity() const { return linear == glm::mat3(1.0f) && translation == Vector3f(0); }
   Box3f bounds(const Box3f& own) const;  ///< a box in the world around a box in the shapes' own space
@@ -75,6 +83,15 @@ struct SceneDescription {
   Color3f ambient{0};  ///< light from everywhere on the diffuse share; 1 shows a surface in its own colour
   std::optional<float> epsilon;  ///< the paper's constant offset along the normal; without it the offset
                                  ///< follows the rounding error at the point
+
+  /// Of a shape of the scene itself, or in one of its instances.
+  const Material& material(std::uint32_t instance, std::uint32_t shape) const {
+    if (instance == kNoInstance) return materials[material_of[shape]];
+    const Instance& place = instances[instance];
+    const SharedShapes& own = *shared[place.shared];
+    const bool is_replaced = place.material != Instance::kOwnMaterials && own.is_of_first_material(shape);
+    return is_replaced ? materials[place.material] : own.material_of(shape);
+  }
 };
 
 /// Immutable: any number of threads may ask it at once.
@@ -108,10 +125,19 @@ class Scene {
     if (hit.instance != kNoInstance) return instance_detail_at(ray, hit);
     return description_.shapes[hit.shape]->detail_at(ray, hit);
   }
-  const Material& material_of(const Hit& hit) const {
-    if (hit.instance == kNoInstance) return description_.materials[description_.material_of[hit.shape]];
-    return description_.shared[description_.instances[hit.instance].shared]->material_of(hit.shape);
-  }
+  const Material& material_of(const Hit& hit) const { return description_.material(hit.instance, hit.shape); }
+  /// Its material with the values that its textures have there; `width` is how much of the surface around the
+  /// hit, across the ray and in scene units, may be averaged over. The surface's shading normal follows the
+  /// material's normal map or bumps.
+  Material textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface) const;
+  /// The share of rays for which the surface is there.
+  float alpha_at(const Ray3f& ray, const Hit& hit) const;
+
+  /// All that shines; gathered when it is first asked for.
+  const LightSet& lights() const;
+
+  /// Whether any mesh has colours at its vertices.
+  bool has_vertex_colors() const { return has_vertex_colors_; }
   const SceneDescription& description() const { return description_; }
   const Camera& camera() const { return description_.camera; }
 
@@ -121,6 +147,9 @@ class Scene {
 
   SceneDescription description_;
   std::unique_ptr<Accelerator> accelerator_;
+  bool has_vertex_colors_ = false;
+  mutable std::once_flag lights_gathered_;
+  mutable std::unique_ptr<const LightSet> lights_;
 };
 
 }  // namespace raytracer

@@ -28,7 +28,10 @@ struct SurfacePoint {
   float position_error = 0;
   Vector3f normal{0, 1, 0};          ///< geometric, unit length; outwards on closed shapes
   Vector3f shading_normal{0, 1, 0};  ///< unit length, same side as `normal`; equal to it on exact shapes
-  Vector2f uv{0};
+  /// From `position` to where rays to lights start that leave on the side from which the surface was seen; the
+  /// step of position_error comes on top. A smooth mesh would else be shadowed by its own facets. 0 on exact
+  /// shapes.
+  Vector3f shadow_offset{0};
 };
 
 /// What only textures, brushed metals and coloured meshes need to know of a point; world space.
@@ -52,6 +55,7 @@ struct ShapeSample {
   float position_error = 0;  ///< as SurfacePoint has it
   Vector3f normal{0, 1, 0};  ///< geometric, unit length
   float pdf = 0;             ///< of the choice, per steradian as seen from there
+  float u = 0, v = 0;        ///< as Hit has them: the shape's own meaning
 };
 
 class TriangleMesh;
@@ -78,7 +82,8 @@ class Shape {
   /// The full surface at a hit that is_hit() returned for this ray.
   virtual SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const = 0;
 
-  /// Likewise what textures need. By default: the surface's uv and nothing else.
+  /// Likewise what textures need; apart from the surface, since most hits need none of it. By default:
+  /// nothing.
   virtual SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const;
 
   /// The shape as native triangles for the accelerator; null: it is asked by is_hit().

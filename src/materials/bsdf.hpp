@@ -1,6 +1,7 @@
 // How a surface scatters light at a point: the closure of a Material, textures resolved.
 #pragma once
 
+#include "materials/albedo_tables.hpp"
 #include "raytracer/material.hpp"
 #include "raytracer/vector3f.hpp"
 
@@ -18,17 +19,27 @@ struct BsdfFrame {
 
 struct BsdfSample {
   Vector3f direction{0};  ///< unit length, away from the surface
-  Color3f weight{0};      ///< value * |cosine to the shading normal| / pdf; without the pdf for a delta
+  /// What the light from there counts for: value * |cosine to the shading normal| / pdf; of a delta its share
+  /// of the light over the probability of its choice. So a path's weight is multiplied by this in any case.
+  Color3f weight{0};
   float pdf = 0;          ///< per steradian, of all lobes together; of a delta the probability of its choice
   bool is_delta = false;  ///< mirror or clear glass: no other direction has anything to do with it
   bool is_transmission = false;  ///< it goes on on the other side of the surface
 };
 
 /// Directions are unit length, in world space, and point away from the surface: `out` to where the light goes
-/// (the eye), `in` to where it comes from.
+/// (the eye), `in` to where it comes from. Values are for radiance: light that is refracted into index i from
+/// o is squeezed by (i / o)^2, so that a clear ball in a uniform sky shows the sky.
+///
+/// What the material says, from the top down, each layer with what the one above lets through:
+///   - a perfect mirror with the share `shininess`, tinted; all the rest shares the rest,
+///   - a coat: facets of index 1.5,
+///   - facets (GGX) of metal, of the layer over an opaque base, and of glass, with one roughness in common,
+///   - what scatters as a matt surface does: the opaque base, and what facets pass on among themselves.
 class Bsdf {
  public:
-  /// The material must outlive it.
+  /// Values out of their range count as the nearest within, what is not a number as 0. Textures are left
+  /// alone: whoever has them resolved gives a material with their values. The material need not outlive it.
   Bsdf(const Material& material, const BsdfFrame& frame);
 
   /// value(out, in) * |cosine of in to the shading normal|, per channel, delta lobes left out. 0 where in or
@@ -36,11 +47,88 @@ class Bsdf {
   Color3f evaluate(const Vector3f& out, const Vector3f& in) const;
   /// The density per steradian with which sample() chooses `in`, delta lobes left out.
   float pdf(const Vector3f& out, const Vector3f& in) const;
+  /// Both at once, for little more than the price of one.
+  Color3f evaluate(const Vector3f& out, const Vector3f& in, float& pdf) const;
   /// Chooses where light comes from. `u_lobe` and `u` in [0, 1). False: the path ends here.
   bool sample(const Vector3f& out, float u_lobe, const Vector2f& u, BsdfSample& sample) const;
 
   /// Whether sample() never chooses anything but a delta, so that evaluate() is 0.
-  bool is_delta() const;
+  bool is_delta() const { return is_delta_; }
+
+ private:
+  /// What depends on `out` alone.
+  struct View;
+  /// A value times cosine and the density of its direction.
+  struct Scattered {
+    Color3f value{0};
+    float pdf = 0;
+  };
+  /// Shares of light of what facets reflect and let through.
+  struct FacetShares {
+    Color3f reflected{0}, through{0};
+  };
+  /// What the glass does to light from one side of the surface.
+  struct GlassSide {
+    float eta = 1;  ///< the index behind over the one before
+    AxisCell eta_cell;
+    float mean_loss = 0;  ///< what facets hold back of diffuse light
+    /// Of what they hold back, the share that leaves after all on this side and on the other.
+    float back = 0, through = 0;
+  };
+
+  void set_up_shares(const Material& material);
+  void set_up_frame(const BsdfFrame& frame);
+  void set_up_roughness(const Material& material);
+  void set_up_layers(const Material& material, float outside);
+  void set_up_metal(const Material& material, float outside);
+  void set_up_sides(const BsdfFrame& frame, float layer_eta);
+  void set_up_glass();
+
+  Color3f metal_fresnel(float cosine) const;
+  FacetShares facet_shares(const View& view, float cosine) const;
+  /// What a facet's reflection loses to masking, 0..1, to be made up for; of glass from its side.
+  float mirror_loss(float cosine) const;
+  float glass_loss(const GlassSide& side, float cosine) const;
+  float layer_passes(float cosine) const;
+  float coat_passes(float cosine, bool is_inside) const;
+
+  bool look(const Vector3f& out, View& view) const;
+  void choose_lobes(View& view) const;
+  Color3f matt_reflection(const View& view, float cosine) const;
+  Color3f matt_transmission(const View& view, float cosine) const;
+  void add_coat(const View& view, const Vector3f& i, Scattered& result) const;
+  void add_facet_reflection(const View& view, const Vector3f& i, Scattered& result) const;
+  void add_facet_transmission(const View& view, const Vector3f& i, Scattered& result) const;
+  Scattered scatter(const View& view, const Vector3f& i) const;
+  Scattered scatter(const Vector3f& out, const Vector3f& in) const;
+
+  bool sample_matt(const Vector3f& out, const Vector2f& u, BsdfSample& sample) const;
+  bool sample_smooth_facet(const View& view, float u_lobe, const Vector3f& out, BsdfSample& sample) const;
+  bool sample_rough_facet(const View& view, float u_lobe, const Vector2f& u, Vector3f& i) const;
+  bool finish_delta(BsdfSample& sample, const Vector3f& direction, const Color3f& share, float probability,
+                    bool is_transmission) const;
+  Vector3f to_world(const View& view, const Vector3f& local) const;
+
+  // Only the first two groups are of any use to a purely matt surface, and only they are set then.
+  Color3f color_;
+  bool is_black_, is_matt_, is_delta_;
+  Vector3f geometric_normal_, normal_;
+
+  Vector3f tangent_, bitangent_;
+  bool is_thin_, is_measured_, has_compensation_, is_isotropic_;
+  float mirror_, passing_, metal_, opaque_, glass_;  // shares of the surface, 1 in all
+  float coat_;                                       // of all but the mirror
+  float coat_share_;                                 // times what the mirror leaves
+  float alpha_x_, alpha_y_, coat_alpha_;             // 0: smooth
+  float specular_, layer_eta_, coat_eta_;
+  Color3f metal_f0_;
+  ConductorIndex conductor_;
+  Color3f metal_mean_;      // of Fresnel's reflectance, diffuse light
+  Color3f metal_multiple_;  // what of light held back by facets leaves at last
+  float mirror_mean_loss_, layer_mean_passes_;
+  AlphaCell cell_x_, cell_y_, coat_cell_, glass_cell_x_, glass_cell_y_;
+  AxisCell layer_eta_cell_, coat_eta_cell_;
+  GlassSide sides_[2];  // outside, inside
 };
 
 }  // namespace raytracer

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 
 #include "core/parallel.hpp"
+#include "integrators/path_tracer.hpp"
 #include "raytracer/error.hpp"
 #include "sampling/sobol.hpp"
 #include "scene/pixel_color.hpp"
@@ -63,42 +65,69 @@ std::vector<Slice> cut_into_slices(double time, const RenderSettings& settings) 
   return slices;
 }
 
-// Renders the samples of one slice of time. Between slices the image holds sums.
-class TileRenderer {
+// The sums of a tile's pixels while its samples are rendered. Between slices of time the image holds sums.
+class TileSums {
  public:
-  TileRenderer(const Scene& scene, const RenderSettings& settings, const Slice& slice, Image& image)
+  TileSums(const Tile& tile, Image& image)
+      : image_(image), pixels_(pixels_in_blocks(tile)), sums_(pixels_.size()) {
+    for (std::size_t i = 0; i < pixels_.size(); ++i) sums_[i] = image.at(pixels_[i].x, pixels_[i].y);
+  }
+
+  const std::vector<glm::ivec2>& pixels() const { return pixels_; }
+
+  void add(const std::vector<Color3f>& colors, float scale) {
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += scale * colors[i];
+  }
+
+  /// After the last of all samples the sums become means.
+  void store(const Slice& slice, int samples) {
+    const float divisor = slice.end_sample == samples ? static_cast<float>(samples) : 1.0F;
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+      image_.set(pixels_[i].x, pixels_[i].y, sums_[i] / divisor);
+  }
+
+ private:
+  Image& image_;
+  std::vector<glm::ivec2> pixels_;
+  std::vector<Color3f> sums_;
+};
+
+// The ray through the point `within` (0 … 1) of a pixel.
+Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within) {
+  const double across = (pixel.x + static_cast<double>(within.x)) / image.width;
+  const double down = (pixel.y + static_cast<double>(within.y)) / image.height;
+  return scene.camera().ray_through(across, down);
+}
+
+// Renders the samples of one slice of time by the paper's recursion.
+class ClassicRenderer {
+ public:
+  ClassicRenderer(const Scene& scene, const RenderSettings& settings, const Slice& slice, Image& image)
       : scene_(scene), settings_(settings), slice_(slice), image_(image) {}
 
-  /// Adds to the tile's pixels, and after the last sample divides them; returns how many rays that took.
+  /// Adds to the tile's pixels; returns how many rays that took.
   std::uint64_t render(const Tile& tile) const {
-    const std::vector<glm::ivec2> pixels = pixels_in_blocks(tile);
-    std::vector<Color3f> sums(pixels.size()), colors(pixels.size());
-    for (std::size_t i = 0; i < pixels.size(); ++i) sums[i] = image_.at(pixels[i].x, pixels[i].y);
+    TileSums sums(tile, image_);
+    const std::vector<glm::ivec2>& pixels = sums.pixels();
+    std::vector<Color3f> colors(pixels.size());
     std::vector<Ray3f> rays(pixels.size());
     PixelColors tracer(scene_);
     for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
-      for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = camera_ray(pixels[i].x, pixels[i].y, sample);
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        rays[i] = camera_ray(scene_, image_, pixels[i], place_in_pixel(pixels[i], sample));
+      }
       tracer.trace(rays, settings_.bounces, colors);
-      for (std::size_t i = 0; i < pixels.size(); ++i) sums[i] += colors[i];
+      sums.add(colors, 1);
     }
-    const bool is_last = slice_.end_sample == settings_.samples;
-    const float divisor = is_last ? static_cast<float>(settings_.samples) : 1.0F;
-    for (std::size_t i = 0; i < pixels.size(); ++i) image_.set(pixels[i].x, pixels[i].y, sums[i] / divisor);
+    sums.store(slice_, settings_.samples);
     return tracer.rays();
   }
 
  private:
-  Ray3f camera_ray(int x, int y, int sample) const {
-    const Vector2f within = place_in_pixel(x, y, sample);
-    const double across = (x + static_cast<double>(within.x)) / image_.width;
-    const double down = (y + static_cast<double>(within.y)) / image_.height;
-    return scene_.camera().ray_through(across, down);
-  }
-
   // (0, 0) is the pixel's upper left corner.
-  Vector2f place_in_pixel(int x, int y, int sample) const {
+  Vector2f place_in_pixel(const glm::ivec2& pixel, int sample) const {
     if (settings_.samples == 1) return Vector2f(0.5f);
-    const auto number = static_cast<std::uint32_t>(image_.index(x, y));
+    const auto number = static_cast<std::uint32_t>(image_.index(pixel.x, pixel.y));
     return sobol_point(static_cast<std::uint32_t>(sample), hash_bits(number ^ hash_bits(settings_.seed)));
   }
 
@@ -106,6 +135,59 @@ class TileRenderer {
   const RenderSettings& settings_;
   const Slice& slice_;
   Image& image_;
+};
+
+// Likewise by path tracing.
+class PathRenderer {
+ public:
+  PathRenderer(const Scene& scene, const RenderSettings& settings, const Slice& slice, Image& image)
+      : scene_(scene),
+        settings_(settings),
+        slice_(slice),
+        image_(image),
+        points_(settings.samples, settings.seed),
+        media_(media_at(scene, scene.camera().position())) {
+    scene.lights();  // gathered before the threads begin
+  }
+
+  std::uint64_t render(const Tile& tile) const {
+    TileSums sums(tile, image_);
+    const std::vector<glm::ivec2>& pixels = sums.pixels();
+    std::vector<Color3f> colors(pixels.size());
+    std::vector<ConeRay> rays(pixels.size());
+    std::vector<PathNumber> numbers(pixels.size());
+    std::vector<Vector2f> places(pixels.size());
+    PathTracer tracer(scene_, settings_, points_, media_);
+    for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+        numbers[i] = points_.number(pixels[i].x, pixels[i].y, sample);
+      points_.fill(0, numbers, places);
+      for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = cone_ray(pixels[i], places[i]);
+      tracer.trace(rays, numbers, colors);
+      sums.add(colors, kWhite);
+    }
+    sums.store(slice_, settings_.samples);
+    return tracer.rays();
+  }
+
+ private:
+  static constexpr float kWhite = 255;
+
+  // Many samples share a pixel: each stands for a part of it.
+  ConeRay cone_ray(const glm::ivec2& pixel, const Vector2f& place) const {
+    const Ray3f ray = camera_ray(scene_, image_, pixel, place);
+    const Ray3f next = camera_ray(scene_, image_, pixel, place + Vector2f(1, 0));
+    const float share = 1 / std::sqrt(static_cast<float>(settings_.samples));
+    return {ray, share * glm::length(next.origin - ray.origin),
+            share * glm::length(next.direction - ray.direction)};
+  }
+
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  const Slice& slice_;
+  Image& image_;
+  PathPoints points_;
+  Media media_;
 };
 
 // Counts tiles and tells the observer, one call at a time; remembers when it asked to stop.
@@ -137,18 +219,24 @@ Image render(const SceneAt& scene_at, double time, const RenderSettings& setting
   const std::vector<Slice> slices = cut_into_slices(time, settings);
   Progress progress(observer, tiles.size() * slices.size());
   double build_seconds = 0;
+  const auto render_tiles = [&](const auto& renderer) {
+    parallel_for(tiles.size(), [&](std::size_t i) {
+      if (progress.is_stopped()) return;
+      rays += renderer.render(tiles[i]);
+      progress.tile_done();
+    });
+  };
   run_with_threads(settings.threads, [&] {
     for (const Slice& slice : slices) {
       if (progress.is_stopped()) return;
       const auto start = std::chrono::steady_clock::now();
       const std::shared_ptr<const Scene> scene = scene_at(slice.time);
       build_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      const TileRenderer renderer(*scene, settings, slice, image);
-      parallel_for(tiles.size(), [&](std::size_t i) {
-        if (progress.is_stopped()) return;
-        rays += renderer.render(tiles[i]);
-        progress.tile_done();
-      });
+      if (settings.method == Method::kPath) {
+        render_tiles(PathRenderer(*scene, settings, slice, image));
+      } else {
+        render_tiles(ClassicRenderer(*scene, settings, slice, image));
+      }
     }
   });
   if (progress.is_stopped()) throw Error(ErrorKind::kInterrupted, "interrupted");

@@ -1,5 +1,5 @@
-// Where Embree is asked. Finite shapes are the primitives of one user geometry; endless shapes stay outside
-// of the tree, which silently never visits infinite bounds.
+// Where Embree is asked. Meshes are geometries of its own kind, all other finite shapes the primitives of one
+// user geometry; endless shapes stay outside of the tree, which silently never visits infinite bounds.
 #include "scene/accelerator.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 #include "scene/callbacks.hpp"
 #include "scene/embree.hpp"
 #include "scene/shape_list.hpp"
+#include "shapes/mesh.hpp"
 
 namespace raytracer {
 namespace {
@@ -79,16 +80,31 @@ RTCDevice device() {
   return shared;
 }
 
-// In a tree the scene's own shapes are geometry 0, and instance i is geometry i + 1.
-constexpr unsigned kOwnShapes = 0;
+void attach(RTCScene scene, RTCGeometry geometry, unsigned id) {
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
+}
 
 void attach_shapes(RTCScene scene, FiniteShapes& finite) {
   if (finite.shapes.empty()) return;
   RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
   set_callbacks(geometry, finite);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, kOwnShapes);
-  rtcReleaseGeometry(geometry);
+  attach(scene, geometry, kAskedShapes);
+}
+
+// Embree reads the mesh's own buffers: corners as three indices of 32 bits, positions as three floats, of
+// which it loads four at a time.
+void attach_mesh(RTCScene scene, const TriangleMesh& mesh, unsigned id) {
+  const MeshData& data = mesh.data();
+  static_assert(sizeof(data.positions[0]) == 12 && sizeof(data.triangles[0]) == 12);
+  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, data.positions.data(), 0,
+                             sizeof(data.positions[0]), data.positions.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             data.triangles.data() + mesh.first_triangle(), 0, sizeof(data.triangles[0]),
+                             mesh.triangle_count());
+  attach(scene, geometry, id);
 }
 
 void attach_instance(RTCScene scene, RTCScene shared, const Instance& instance, unsigned id) {
@@ -108,9 +124,7 @@ void attach_instance(RTCScene scene, RTCScene shared, const Instance& instance, 
                              instance.translation.y,
                              instance.translation.z};
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, id);
-  rtcReleaseGeometry(geometry);
+  attach(scene, geometry, id);
 }
 
 void commit(RTCScene scene, std::size_t things) {
@@ -125,7 +139,22 @@ void commit(RTCScene scene, std::size_t things) {
 struct Accelerator::Tree {
   FiniteShapes finite;
   ShapeList endless;
+  // Of each instance the tree that stands there. Instance i is geometry first_instance() + i.
+  std::vector<const Tree*> instances;
   RTCScene scene = nullptr;
+
+  unsigned first_instance() const { return static_cast<unsigned>(finite.meshes.size()) + 1; }
+
+  void add(const Shape& shape, std::uint32_t index) {
+    const TriangleMesh* mesh = shape.as_mesh();
+    if (mesh != nullptr) {
+      finite.meshes.push_back(mesh);
+      finite.mesh_indices.push_back(index);
+    } else {
+      finite.shapes.push_back(&shape);
+      finite.indices.push_back(index);
+    }
+  }
 
   ~Tree() {
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -142,18 +171,20 @@ struct Accelerator::Tree {
   // A hit in the tree, as Embree tells it.
   struct Found {
     float t;
-    unsigned instance_id, primitive;
+    unsigned instance_id, geometry, primitive;
     float part, u, v;
   };
 
   // The nearer of what the tree found and of `hit`, which the endless shapes have found if `has_hit`.
   bool choose(const Found& found, bool has_hit, Hit& hit) const {
     const bool is_own = found.instance_id == RTC_INVALID_GEOMETRY_ID;
-    // Shared shapes are all finite: there a primitive is a shape.
-    const std::uint32_t shape = is_own ? finite.indices[found.primitive] : found.primitive;
+    const std::uint32_t instance = is_own ? kNoInstance : found.instance_id - first_instance();
+    const FiniteShapes& shapes = is_own ? finite : instances[instance]->finite;
+    const std::uint32_t shape = shapes.index_of(found.geometry, found.primitive);
     if (has_hit && found.t >= hit.t && (!is_own || shape > hit.shape)) return true;
-    hit = {found.t, shape,   std::bit_cast<std::uint32_t>(found.part),
-           found.u, found.v, is_own ? kNoInstance : found.instance_id - 1};
+    const bool is_asked = found.geometry == kAskedShapes;
+    const std::uint32_t part = is_asked ? std::bit_cast<std::uint32_t>(found.part) : found.primitive;
+    hit = {found.t, shape, part, found.u, found.v, instance};
     return true;
   }
 };
@@ -165,19 +196,30 @@ Accelerator::Accelerator(std::span<const std::unique_ptr<Shape>> shapes,
   std::vector<const Shape*> endless;
   std::vector<std::uint32_t> endless_indices;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-    const bool finite = shapes[i]->bounds().is_finite();
-    (finite ? tree_->finite.shapes : endless).push_back(shapes[i].get());
-    (finite ? tree_->finite.indices : endless_indices).push_back(i);
+    const Box3f bounds = shapes[i]->bounds();
+    if (bounds.is_empty()) continue;  // a mesh without triangles
+    if (bounds.is_finite()) {
+      tree_->add(*shapes[i], i);
+    } else {
+      endless.push_back(shapes[i].get());
+      endless_indices.push_back(i);
+    }
   }
   tree_->endless = ShapeList(std::move(endless), std::move(endless_indices));
-  const std::size_t things = tree_->finite.shapes.size() + instances.size();
+  const FiniteShapes& finite = tree_->finite;
+  const std::size_t things = finite.shapes.size() + finite.meshes.size() + instances.size();
   if (things == 0) return;
   tree_->scene = rtcNewScene(device());
   rtcSetSceneFlags(tree_->scene, RTC_SCENE_FLAG_ROBUST);
   attach_shapes(tree_->scene, tree_->finite);
+  for (std::size_t i = 0; i < finite.meshes.size(); ++i)
+    attach_mesh(tree_->scene, *finite.meshes[i], static_cast<unsigned>(i) + 1);
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    RTCScene below = shared[instances[i].shared]->accelerator().tree_->scene;
-    if (below != nullptr) attach_instance(tree_->scene, below, instances[i], static_cast<unsigned>(i) + 1);
+    const Tree* below = shared[instances[i].shared]->accelerator().tree_.get();
+    tree_->instances.push_back(below);
+    if (below->scene == nullptr) continue;
+    attach_instance(tree_->scene, below->scene, instances[i],
+                    tree_->first_instance() + static_cast<unsigned>(i));
   }
   commit(tree_->scene, things);
 }
@@ -195,8 +237,9 @@ bool Accelerator::is_hit(const Ray3f& ray, Hit& hit) const {
   embree::intersect(tree_->scene, query);
   const RTCHit& found = query.hit;
   if (found.geomID == RTC_INVALID_GEOMETRY_ID) return hits_endless;
-  return tree_->choose({query.ray.tfar, found.instID[0], found.primID, found.Ng_x, found.u, found.v},
-                       hits_endless, hit);
+  return tree_->choose(
+      {query.ray.tfar, found.instID[0], found.geomID, found.primID, found.Ng_x, found.u, found.v},
+      hits_endless, hit);
 }
 
 bool Accelerator::is_occluded(const Ray3f& ray) const {
@@ -225,9 +268,9 @@ std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hi
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     const bool hits_endless = (answer >> i & 1U) != 0;
-    tree_->choose(
-        {query.ray.tfar[i], found.instID[0][i], found.primID[i], found.Ng_x[i], found.u[i], found.v[i]},
-        hits_endless, hits[i]);
+    tree_->choose({query.ray.tfar[i], found.instID[0][i], found.geomID[i], found.primID[i], found.Ng_x[i],
+                   found.u[i], found.v[i]},
+                  hits_endless, hits[i]);
     answer |= 1U << i;
   }
   return answer;

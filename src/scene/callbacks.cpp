@@ -22,10 +22,14 @@ void bounds_callback(const RTCBoundsFunctionArguments* args) {
 
 // Whether the shape that is asked comes before the one that was hit: by instance, the scene's own shapes
 // first, then by shape.
-bool comes_before(const RTCIntersectFunctionNArguments& args, unsigned hit_instance, unsigned hit_primitive) {
+bool comes_before(const RTCIntersectFunctionNArguments& args, unsigned hit_instance, unsigned hit_geometry,
+                  unsigned hit_primitive) {
   // RTC_INVALID_GEOMETRY_ID, no instance, wraps to 0.
   const unsigned asked = args.context->instID[0] + 1, hit = hit_instance + 1;
-  return asked < hit || (asked == hit && args.primID < hit_primitive);
+  if (asked != hit) return asked < hit;
+  if (hit_geometry == args.geomID) return args.primID < hit_primitive;
+  const auto& finite = *static_cast<const FiniteShapes*>(args.geometryUserPtr);
+  return finite.indices[args.primID] < finite.index_of(hit_geometry, hit_primitive);
 }
 
 // --- one ray
@@ -45,8 +49,8 @@ inline void intersect_one(const RTCIntersectFunctionNArguments& args, unsigned n
   // A hit just as far as the nearest one so far still counts if its shape comes first.
   const bool has_hit = RTCHitN_geomID(hits, n, i) != RTC_INVALID_GEOMETRY_ID;
   Ray3f ray = ray_in(rays, n, i);
-  const bool comes_first =
-      has_hit && comes_before(args, RTCHitN_instID(hits, n, i, 0), RTCHitN_primID(hits, n, i));
+  const bool comes_first = has_hit && comes_before(args, RTCHitN_instID(hits, n, i, 0),
+                                                   RTCHitN_geomID(hits, n, i), RTCHitN_primID(hits, n, i));
   if (comes_first) ray.t_max = std::nextafter(ray.t_max, kInfinity);
   Hit hit;
   if (!shape_of(args.geometryUserPtr, args.primID).is_hit(ray, hit)) return;
@@ -98,7 +102,7 @@ void intersect_eight(const RTCIntersectFunctionNArguments& args, unsigned first)
   RayPacket packet = load(rays, args.N, first, args.valid + first);
   for (int i = 0; i < kLanes; ++i) {  // as in intersect_one
     const bool comes_first =
-        (geometry[i] != RTC_INVALID_GEOMETRY_ID) & comes_before(args, instance[i], primitive[i]);
+        geometry[i] != RTC_INVALID_GEOMETRY_ID && comes_before(args, instance[i], geometry[i], primitive[i]);
     packet.t_max[i] = (comes_first & (packet.t_max[i] > 0)) ? next_above(packet.t_max[i]) : packet.t_max[i];
   }
   HitPacket hits;

@@ -9,10 +9,20 @@
 
 namespace raytracer {
 
-/// The shapes of one user geometry: primitive i is shape indices[i] of the scene, ascending.
+inline constexpr unsigned kAskedShapes = 0;
+
+/// The finite shapes of one tree. Those that are asked are the primitives of one user geometry, number
+/// kAskedShapes: primitive i is shape indices[i] of the scene, ascending. Mesh i is geometry i + 1, and shape
+/// mesh_indices[i].
 struct FiniteShapes {
   std::vector<const Shape*> shapes;
   std::vector<std::uint32_t> indices;
+  std::vector<const TriangleMesh*> meshes;
+  std::vector<std::uint32_t> mesh_indices;
+
+  std::uint32_t index_of(unsigned geometry, unsigned primitive) const {
+    return geometry == kAskedShapes ? indices[primitive] : mesh_indices[geometry - 1];
+  }
 };
 
 /// Lets `geometry` ask the shapes, which must outlive it, for everything. A hit leaves its Hit::primitive, as

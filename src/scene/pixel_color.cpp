@@ -10,7 +10,9 @@ namespace {
 inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hit& hit) {
   const SurfacePoint surface = scene.surface_at(ray, hit);
   ShadingPoint point;
-  point.normal = glm::dot(surface.normal, ray.direction) > 0 ? -surface.normal : surface.normal;
+  const bool is_back = glm::dot(surface.normal, ray.direction) > 0;
+  point.normal = is_back ? -surface.normal : surface.normal;
+  point.shading_normal = is_back ? -surface.shading_normal : surface.shading_normal;
   if (const auto& epsilon = scene.description().epsilon) {
     // The paper's way: the point as the ray's equation gives it, its rounding error included.
     point.position = ray.at(hit.t);
@@ -19,11 +21,23 @@ inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hi
     point.position = surface.position;
     point.offset_position = point.position + surface.position_error * point.normal;
   }
+  point.shadow_position = point.offset_position + surface.shadow_offset;
   return point;
 }
 
+// A mirror that is curved by its shading normals alone may send a ray into itself: it then goes along the
+// surface.
 Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
-  return {point.offset_position, glm::reflect(ray.direction, point.normal)};
+  Vector3f direction = glm::reflect(ray.direction, point.shading_normal);
+  const float away = glm::dot(direction, point.normal);
+  if (away < 0) direction -= 1.001f * away * point.normal;
+  return {point.offset_position, direction};
+}
+
+// With what the vertices of a mesh say.
+Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hit, const Material& material) {
+  if (!scene.has_vertex_colors() || !material.takes_vertex_colors) return material.color;
+  return material.color * scene.detail_at(ray, hit).color;
 }
 
 float mirror_share(const Material& material) { return glm::clamp(material.shininess, 0.0f, 1.0f); }
@@ -32,7 +46,8 @@ float mirror_share(const Material& material) { return glm::clamp(material.shinin
 Color3f direct_light(const Scene& scene, const ShadingPoint& point, std::uint64_t& rays) {
   Color3f sum = 255.0f * scene.description().ambient;
   for (const Light& light : scene.description().lights) {
-    const Illumination arriving = illuminate(light, point.position, point.normal, point.offset_position);
+    const Illumination arriving =
+        illuminate(light, point.position, point.shading_normal, point.shadow_position);
     if (arriving.color == Color3f(0)) continue;
     ++rays;
     if (!scene.is_occluded(arriving.shadow_ray)) sum += arriving.color;
@@ -49,11 +64,12 @@ Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, 
   const Material& material = scene.material_of(hit);
   const float shininess = mirror_share(material);
   const ShadingPoint point = shading_point(scene, ray, hit);
+  const Color3f tint = surface_color(scene, ray, hit, material);
   Color3f color(0);
-  if (shininess < 1) color += (1 - shininess) * material.color * direct_light(scene, point, rays);
+  if (shininess < 1) color += (1 - shininess) * tint * direct_light(scene, point, rays);
   if (shininess > 0 && bounces_left > 0) {
     const Ray3f reflected = reflected_ray(ray, point);
-    color += shininess * material.color * get_pixel_color(scene, reflected, bounces_left - 1, rays);
+    color += shininess * tint * get_pixel_color(scene, reflected, bounces_left - 1, rays);
   }
   return color;
 }
@@ -107,17 +123,18 @@ void PixelColors::shade_hit(Level& level, std::uint32_t ray, const Hit& hit, Lev
   const Material& material = scene_.material_of(hit);
   const float shininess = mirror_share(material);
   const ShadingPoint point = shading_point(scene_, level.rays[ray], hit);
+  const Color3f tint = surface_color(scene_, level.rays[ray], hit, material);
   if (shininess < 1) {
     LitPoint& lit = lit_.emplace_back();
     lit.point = point;
     lit.ray = ray;
-    lit.share = (1 - shininess) * material.color;
+    lit.share = (1 - shininess) * tint;
     lit.light = 255.0f * scene_.description().ambient;
   }
   if (shininess > 0 && next != nullptr) {
     next->rays.push_back(reflected_ray(level.rays[ray], point));
     next->parent.push_back(ray);
-    next->share.push_back(shininess * material.color);
+    next->share.push_back(shininess * tint);
   }
 }
 
@@ -144,7 +161,8 @@ void PixelColors::add_light(const Light& light, Coherence coherence) {
   ShadowRays waiting;
   for (std::uint32_t i = 0; i < lit_.size(); ++i) {
     const ShadingPoint& point = lit_[i].point;
-    const Illumination arriving = illuminate(light, point.position, point.normal, point.offset_position);
+    const Illumination arriving =
+        illuminate(light, point.position, point.shading_normal, point.shadow_position);
     if (arriving.color == Color3f(0)) continue;
     ++rays_;
     if (coherence == Coherence::kIncoherent) {

@@ -12,8 +12,10 @@ namespace raytracer {
 /// A hit as shading sees it.
 struct ShadingPoint {
   Vector3f position;
-  Vector3f normal;           ///< unit length, turned towards where the ray came from
-  Vector3f offset_position;  ///< where further rays start
+  Vector3f normal;           ///< geometric, unit length, turned towards where the ray came from
+  Vector3f shading_normal;   ///< likewise, of the curved surface that a mesh stands for
+  Vector3f offset_position;  ///< where reflected rays start
+  Vector3f shadow_position;  ///< where rays to lights start
 };
 
 /// Scene::get_pixel_color; adds the rays it traced to `rays`.

@@ -1,10 +1,13 @@
 #include "raytracer/scene.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "raytracer/error.hpp"
 #include "scene/accelerator.hpp"
+#include "scene/light_set.hpp"
 #include "scene/pixel_color.hpp"
+#include "scene/vertex_colors.hpp"
 
 namespace raytracer {
 
@@ -20,7 +23,12 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     if (instance.shared >= description_.shared.size()) {
       throw Error(ErrorKind::kUsage, "an instance's shapes do not exist");
     }
+    if (instance.material != Instance::kOwnMaterials && instance.material >= description_.materials.size())
+      throw Error(ErrorKind::kUsage, "an instance's material does not exist");
   }
+  has_vertex_colors_ = any_vertex_colors(description_.shapes) ||
+                       std::ranges::any_of(description_.shared,
+                                           [](const auto& shared) { return shared->has_vertex_colors(); });
   accelerator_ =
       std::make_unique<Accelerator>(description_.shapes, description_.shared, description_.instances);
 }
@@ -42,6 +50,11 @@ std::uint32_t Scene::is_occluded(std::span<const Ray3f> rays, Coherence coherenc
 Color3f Scene::get_pixel_color(const Ray3f& ray, int bounces_left) const {
   std::uint64_t rays = 0;
   return raytracer::get_pixel_color(*this, ray, bounces_left, rays);
+}
+
+const LightSet& Scene::lights() const {
+  std::call_once(lights_gathered_, [this] { lights_ = std::make_unique<const LightSet>(description_); });
+  return *lights_;
 }
 
 }  // namespace raytracer

@@ -7,6 +7,8 @@
 #include "raytracer/error.hpp"
 #include "raytracer/scene.hpp"
 #include "scene/accelerator.hpp"
+#include "scene/placed_surface.hpp"
+#include "scene/vertex_colors.hpp"
 
 namespace raytracer {
 namespace {
@@ -39,6 +41,7 @@ SharedShapes::SharedShapes(std::vector<std::unique_ptr<Shape>> shapes, std::vect
   for (const auto& shape : shapes_) bounds_.extend(shape->bounds());
   if (!bounds_.is_empty() && !bounds_.is_finite())
     throw Error(ErrorKind::kUsage, "an endless shape can't be shared");
+  has_vertex_colors_ = any_vertex_colors(shapes_);
   accelerator_ = std::make_unique<Accelerator>(shapes_);
 }
 
@@ -89,15 +92,19 @@ SurfacePoint Scene::instance_surface_at(const Ray3f& ray, const Hit& hit) const 
   const glm::dmat3 to_world(instance.linear);
   const glm::dmat3 to_own = glm::inverse(to_world);
   const Vector3d translation(instance.translation);
-  const Ray3f own_ray = own_ray_of(ray, to_own, translation);
-  const SurfacePoint own = shape.surface_at(own_ray, hit);
+  return placed_surface(shape.surface_at(own_ray_of(ray, to_own, translation), hit), to_world, to_own,
+                        translation);
+}
 
+SurfacePoint placed_surface(const SurfacePoint& own, const glm::dmat3& to_world, const glm::dmat3& to_own,
+                            const Vector3d& translation) {
   SurfacePoint point = own;
   const Vector3d position = to_world * Vector3d(own.position) + translation;
   point.position = Vector3f(position);
   const glm::dmat3 normals = glm::transpose(to_own);
   point.normal = Vector3f(glm::normalize(normals * Vector3d(own.normal)));
   point.shading_normal = Vector3f(glm::normalize(normals * Vector3d(own.shading_normal)));
+  point.shadow_offset = Vector3f(to_world * Vector3d(own.shadow_offset));
   // Besides the shape's own error: what a further ray loses whose origin Embree takes into the shapes' own
   // space in single precision (a sum of three products and a translation that is such a sum itself) by a
   // matrix that it has inverted in single precision; and twice the rounding of a position in the world.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/suggest.hpp"
 
@@ -44,7 +46,10 @@ class ArgumentReader {
       case PropertyType::kBoolean:
         return single(ValueType::kBoolean);
       case PropertyType::kString:
+      case PropertyType::kFile:
         return single(ValueType::kString);
+      case PropertyType::kNumbers:
+        return list();
       default:
         return numbers();
     }
@@ -107,6 +112,22 @@ class ArgumentReader {
     }
     if (is_spread() && count_ == 1) argument_.numbers[1] = argument_.numbers[2] = argument_.numbers[0];
     return sound ? std::optional(argument_) : std::nullopt;
+  }
+
+  // As numbers(), however many.
+  std::optional<Argument> list() {
+    argument_.list.reserve(property_.values.size());
+    bool sound = true;
+    for (const ValueNode& node : property_.values) {
+      const Value value = evaluator_.evaluate(node, source_, visibility_);
+      count_ = 0;
+      if (!value.is_known() || !take(node, value)) return std::nullopt;
+      for (std::size_t i = 0; i < count_; ++i) {
+        sound = sound && check_range(components_[i]);
+        argument_.list.push_back(components_[i].number);
+      }
+    }
+    return sound ? std::optional(std::move(argument_)) : std::nullopt;
   }
 
   bool check_count() {
@@ -220,6 +241,8 @@ std::size_t most_numbers(PropertyType type) {
       return 4;
     case PropertyType::kMatrix:
       return kMostNumbers;
+    case PropertyType::kNumbers:
+      return std::numeric_limits<std::size_t>::max();
     default:
       return 0;
   }

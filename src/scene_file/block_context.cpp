@@ -139,8 +139,12 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
     return material_.has_value();
   }
   const bool is_parameter = parameters_ != nullptr && !is_placing(*row);
-  if (SceneRecorder* recorder = builder_.recorder(); recorder && !is_parameter)
-    recorder->add(*row, *argument);
+  if (SceneRecorder* recorder = builder_.recorder(); recorder && !is_parameter) {
+    Argument told = *argument;
+    if (row->type == PropertyType::kFile)
+      told.text = builder_.files_.seen_from_main(told.text, *around_.source);
+    recorder->add(*row, told);
+  }
   if (is_placing(*row)) return apply_placing(*row, *argument, place(property.whole()));
   store(*row, *argument, input);
   return true;
@@ -282,6 +286,34 @@ void BlockContext::build_children() {
 void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
   builder_.note_shape(header());
   builder_.store_.add(std::move(shape), material_.value_or(around_.material), depends_on_time());
+}
+
+void BlockContext::add_mesh_file(std::string_view property, const std::string& file,
+                                 const MeshOptions& options) {
+  const Place& place = given(property)->place;
+  const std::string path =
+      builder_.files_.find(file, place, "a file to read a mesh from", builder_.diagnostics_);
+  if (path.empty()) return;
+  SceneHasher* hasher = builder_.hasher();
+  MeshFile* mesh = builder_.meshes_.read(path, file, options, place, hasher != nullptr);
+  if (mesh == nullptr) return;
+  if (hasher != nullptr) hasher->add_content(*mesh->hash);
+  builder_.note_shape(header());
+  const MeshUse use{mesh,
+                    placed(Vector3d(0)),
+                    material_.value_or(around_.material),
+                    material_.has_value(),
+                    depends_on_time(),
+                    place};
+  if (builder_.is_trying_) return;
+  if (!builder_.store_.is_recording()) return builder_.meshes_.add(use);
+  try {
+    std::vector<Material>& materials = builder_.draft_.scene.materials;
+    builder_.meshes_.add_copy(use, materials, builder_.store_.recorded());
+    builder_.material_uses_.resize(materials.size(), {{}, true, false, 0});
+  } catch (const Error& problem) {
+    builder_.diagnostics_.error(place, fmt::format("'{}': {}", file, problem.what()));
+  }
 }
 
 void BlockContext::add_light(const Light& light) {

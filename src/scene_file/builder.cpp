@@ -43,7 +43,8 @@ Builder::Builder(Files& files, const Limits& limits, const Moment& moment, KeptS
       diagnostics_(diagnostics),
       budget_(limits.steps),
       evaluator_(files.names(), moment, budget_, diagnostics),
-      store_(kept) {
+      store_(kept),
+      meshes_(kept, files, diagnostics) {
   draft_.scene.materials.push_back(Material{});  // of shapes that name none
   material_uses_.push_back({{}, true, false, 0});
 }
@@ -63,6 +64,7 @@ void Builder::build(const SyntaxTree& tree) {
   evaluator_.bindings().pop_to(0);
   definitions_.pop_to(0);
   materials_.pop_to(0);
+  if (!diagnostics_.has_errors()) meshes_.place_all(draft_.scene.materials, store_);
 }
 
 // A definition that nothing uses is run once all the same, for the mistakes in it.
@@ -79,7 +81,9 @@ void Builder::try_unused_definitions(const Surroundings& top) {
     inside.source = definition->source;
     inside.kind = definition->name;
     store_.record(discarded);
+    is_trying_ = true;
     build_body(*definition, definition->defaults, inside, {});
+    is_trying_ = false;
     store_.stop_recording();
     draft_.scene.lights.resize(lights);
     shapes_made_ = shapes_made;

@@ -15,6 +15,7 @@
 #include "scene_file/evaluator.hpp"
 #include "scene_file/files.hpp"
 #include "scene_file/limits.hpp"
+#include "scene_file/mesh_store.hpp"
 #include "scene_file/scene_hash.hpp"
 #include "scene_file/scene_recorder.hpp"
 #include "scene_file/schema.hpp"
@@ -98,6 +99,8 @@ class BlockContext {
     }
   }
   void add_light(const Light& light);
+  /// Adds the mesh in a file that `property` names.
+  void add_mesh_file(std::string_view property, const std::string& file, const MeshOptions& options);
   void build_children();
   std::uint32_t add_material(const Material& material);
 
@@ -262,12 +265,15 @@ class Builder {
   SceneHasher* hasher_ = nullptr;
   SceneRecorder* recorder_ = nullptr;
   ShapeStore store_;
+  MeshStore meshes_;
+  bool is_trying_ = false;  // a definition that nothing uses
   UseCounter uses_;
   std::vector<MaterialUse> material_uses_;
   std::unordered_map<NameId, Replacement> replaced_lets_;
   std::vector<TopLevelLet> top_level_lets_;
-  std::unordered_map<const SyntaxTree*, int> bad_includes_;
-  NameTable setting_names_;  // a loop makes no second camera
+  std::unordered_map<const SyntaxTree*, int> bad_includes_;      // turns in which a file had mistakes
+  std::unordered_map<const IncludeNode*, int> failed_includes_;  // turns in which there was no file to read
+  NameTable setting_names_;                                      // a loop makes no second camera
   std::vector<std::shared_ptr<const Definition>> top_definitions_;
   std::unordered_map<const DefineNode*, bool> used_definitions_;
   std::size_t depth_ = 0;  // of statements in statements, all kinds counted

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -112,31 +113,58 @@ const SyntaxTree* Files::add_main(std::string name, std::string path, std::strin
   return tree;
 }
 
-const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {
+std::string Files::find(const std::string& file, const Place& from, std::string_view what,
+                        Diagnostics& diagnostics) const {
   const fs::path folder = fs::path(from.source->path()).parent_path();
-  const std::string path = canonical((folder / file).string());
+  std::string path = canonical((folder / file).string());
   if (path.empty()) {
     diagnostics.error(from, "this can't be the name of a file", "it is too long, or can't be looked up");
-    return nullptr;
+    return {};
   }
-  const auto known = by_path_.find(path);
-  if (known != by_path_.end()) return known->second;
   if (!is_allowed(path)) {
     diagnostics.error(from, fmt::format("'{}' lies outside of the scene's folder", file),
                       fmt::format("--allow-path {} allows it", fs::path(path).parent_path().string()));
-    return nullptr;
+    return {};
   }
   std::error_code status_error;
   const fs::file_status status = fs::status(path, status_error);
   if (!fs::exists(status)) {
     diagnostics.error(from, fmt::format("there is no file '{}'", file), fmt::format("looked for {}", path));
-    return nullptr;
+    return {};
   }
   if (!fs::is_regular_file(status)) {
-    diagnostics.error(from, fmt::format("'{}' is not a file to include", file),
+    diagnostics.error(from, fmt::format("'{}' is not {}", file, what),
                       fs::is_directory(status) ? "it is a folder" : "it is a device or a pipe");
-    return nullptr;
+    return {};
   }
+  return path;
+}
+
+void Files::require_allowed(const std::string& path) const {
+  const std::string resolved = canonical(path);
+  if (!resolved.empty() && is_allowed(resolved)) return;
+  throw Error(ErrorKind::kScene, fmt::format("'{}' lies outside of the scene's folder", path));
+}
+
+std::string Files::seen_from_main(const std::string& file, const Source& source) const {
+  const fs::path path(file);
+  if (path.is_absolute() || source.path().empty()) return file;
+  const fs::path main_folder = fs::path(files_.front().source->path()).parent_path();
+  const fs::path folder = fs::path(source.path()).parent_path().lexically_relative(main_folder);
+  return folder.empty() || folder == "." ? file : (folder / path).lexically_normal().string();
+}
+
+void Files::note_read(const std::string& path) {
+  if (std::ranges::find(other_files_, path) == other_files_.end()) other_files_.push_back(path);
+}
+
+const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {
+  const fs::path folder = fs::path(from.source->path()).parent_path();
+  // A file that has been read is there, whatever has become of it since.
+  if (const auto known = by_path_.find(canonical((folder / file).string())); known != by_path_.end())
+    return known->second;
+  const std::string path = find(file, from, "a file to include", diagnostics);
+  if (path.empty()) return nullptr;
   const std::string shown = fs::path(from.source->name()).parent_path().empty()
                                 ? file
                                 : (fs::path(from.source->name()).parent_path() / file).string();
@@ -179,6 +207,7 @@ std::vector<std::string> Files::read_paths() const {
   for (const File& file : files_) {
     if (!file.source->path().empty()) paths.push_back(file.source->path());
   }
+  paths.insert(paths.end(), other_files_.begin(), other_files_.end());
   return paths;
 }
 

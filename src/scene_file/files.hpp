@@ -24,6 +24,19 @@ class Files {
   /// Takes the main scene's text.
   const SyntaxTree* add_main(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
+  /// Where a file that a scene at `from` names lies, as a canonical path. Empty where it can't be had, or is
+  /// not the scene's to read, which has then been reported at `from`; `what` it is good for is said there ("a
+  /// file to include").
+  std::string find(const std::string& file, const Place& from, std::string_view what,
+                   Diagnostics& diagnostics) const;
+  /// Throws Error (kScene) where a file that another file names (a mesh its materials) is not the scene's to
+  /// read.
+  void require_allowed(const std::string& path) const;
+  /// The name of a file that a source says, as the main scene would say it.
+  std::string seen_from_main(const std::string& file, const Source& source) const;
+  /// A file that is no text of the scene has been read.
+  void note_read(const std::string& path);
+
   /// The tree of a file that a scene at `from` names, parsed when first asked for. Null where it can't be
   /// had, which has then been reported at `from`.
   const SyntaxTree* include(const std::string& file, const Place& from, Diagnostics& diagnostics);
@@ -45,7 +58,8 @@ class Files {
   bool is_allowed(const std::string& canonical_path) const;
   const SyntaxTree* add(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
-  std::vector<std::string> allowed_folders_;
+  std::vector<std::string> allowed_folders_;  ///< canonical; the main scene's first
+  std::vector<std::string> other_files_;
   Names names_;
   std::vector<File> files_;
   std::unordered_map<std::string, const SyntaxTree*> by_path_;

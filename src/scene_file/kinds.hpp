@@ -12,5 +12,6 @@ std::span<const KindRow> light_kinds();     // light and its variants
 std::span<const KindRow> material_kinds();  // material
 std::span<const KindRow> group_kinds();     // group
 std::span<const KindRow> shape_kinds();     // sphere quad …
+std::span<const KindRow> mesh_kinds();      // mesh
 
 }  // namespace raytracer::scene_file

@@ -31,7 +31,13 @@ void SceneHasher::add(const PropertyRow& property, const Argument& argument) {
   hasher_.add(property.name);
   for (const double number : argument.numbers) hasher_.add(number);
   hasher_.add(argument.text);
+  for (const double number : argument.list) hasher_.add(number);
+  hasher_.add(std::uint64_t{argument.list.size()});
   hasher_.add(std::uint64_t{argument.index} << 1U | (argument.is_display ? 1U : 0U));
+}
+
+void SceneHasher::add_content(const SceneHash& content) {
+  for (const std::uint64_t word : content) hasher_.add(word);
 }
 
 void SceneHasher::end_block(const std::optional<std::uint32_t>& material) {

@@ -22,6 +22,8 @@ class SceneHasher {
   void begin_block(const KindRow& kind, std::string_view name, const Transform& to_world,
                    std::uint32_t material);
   void add(const PropertyRow& property, const Argument& argument);
+  /// What stands in a file that is no scene's text, as a hash.
+  void add_content(const SceneHash& content);
   /// `material` is the block's own.
   void end_block(const std::optional<std::uint32_t>& material);
 

@@ -39,6 +39,7 @@ std::string value_text(const PropertyRow& row, const Argument& argument) {
     case PropertyType::kBoolean:
       return n[0] != 0 ? "true" : "false";
     case PropertyType::kString:
+    case PropertyType::kFile:
       return json_quoted(argument.text);
     case PropertyType::kWord:
       return json_quoted(row.words[argument.index]);
@@ -47,6 +48,8 @@ std::string value_text(const PropertyRow& row, const Argument& argument) {
     case PropertyType::kSize:
       if (n[0] == n[1] && n[1] == n[2]) return fmt::format("{}", n[0]);
       break;
+    case PropertyType::kNumbers:
+      return array_text(argument.list);
     default:
       break;
   }

@@ -48,7 +48,7 @@ std::span<const KindRow> all_kinds() {
   static const std::vector<KindRow> rows = [] {
     std::vector<KindRow> all;
     for (const std::span<const KindRow> table :
-         {setting_kinds(), light_kinds(), material_kinds(), group_kinds(), shape_kinds()}) {
+         {setting_kinds(), light_kinds(), material_kinds(), group_kinds(), shape_kinds(), mesh_kinds()}) {
       all.insert(all.end(), table.begin(), table.end());
     }
     return all;
@@ -99,6 +99,8 @@ std::string describe_type(const PropertyRow& row) {
       return "true or false";
     case PropertyType::kString:
       return "a string";
+    case PropertyType::kFile:
+      return "the name of a file";
     case PropertyType::kVector:
       return "three numbers";
     case PropertyType::kSize:
@@ -116,6 +118,8 @@ std::string describe_type(const PropertyRow& row) {
       return "an axis x y z and an angle";
     case PropertyType::kMatrix:
       return "twelve numbers";
+    case PropertyType::kNumbers:
+      return "numbers";
   }
   return {};
 }
@@ -129,6 +133,10 @@ std::string example_value(const PropertyRow& row) {
       return "true";
     case PropertyType::kString:
       return "\"text\"";
+    case PropertyType::kFile:
+      return "\"file\"";
+    case PropertyType::kNumbers:
+      return "0 0 0  1 0 0  0 1 0";
     case PropertyType::kVector:
       return "0 1 0";
     case PropertyType::kSize:

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "raytracer/vector3f.hpp"
 
@@ -23,6 +24,7 @@ enum class PropertyType : std::uint8_t {
   kInteger,
   kBoolean,
   kString,
+  kFile,    ///< the name of a file, relative to the file that says it
   kVector,  ///< three numbers
   kSize,    ///< one number for all axes, or three
   kPixels,  ///< two whole numbers
@@ -31,6 +33,7 @@ enum class PropertyType : std::uint8_t {
   kMaterial,  ///< the name of a material, or one in place
   kAxisAngle,
   kMatrix,
+  kNumbers,  ///< any number of numbers, vectors among them
 };
 
 /// The values that make sense, for each number of a property.
@@ -48,8 +51,9 @@ inline constexpr Range kShare{0, 1, false};
 struct Argument {
   std::array<double, 12> numbers{};
   std::string text;
-  std::uint32_t index = 0;  ///< of a word in its list, of a material in the scene
-  bool is_display = false;  ///< of a colour, as Value has it
+  std::vector<double> list;  ///< of kNumbers
+  std::uint32_t index = 0;   ///< of a word in its list, of a material in the scene
+  bool is_display = false;   ///< of a colour, as Value has it
   bool depends_on_time = false;
 };
 
@@ -62,6 +66,11 @@ struct ColorValue {
 /// A material of the scene by its index.
 struct MaterialIndex {
   std::uint32_t index = 0;
+};
+
+/// The name of a file as written.
+struct FileName {
+  std::string name;
 };
 
 struct PropertyRow {
@@ -178,6 +187,8 @@ constexpr PropertyType property_type() {
   if constexpr (std::is_same_v<T, int>) return PropertyType::kInteger;
   if constexpr (std::is_same_v<T, bool>) return PropertyType::kBoolean;
   if constexpr (std::is_same_v<T, std::string>) return PropertyType::kString;
+  if constexpr (std::is_same_v<T, FileName>) return PropertyType::kFile;
+  if constexpr (std::is_same_v<T, std::vector<double>>) return PropertyType::kNumbers;
   if constexpr (std::is_same_v<T, Vector3d>) return PropertyType::kVector;
   if constexpr (std::is_same_v<T, std::array<int, 2>>) return PropertyType::kPixels;
   if constexpr (std::is_same_v<T, ColorValue>) return PropertyType::kColor;
@@ -192,6 +203,8 @@ T from_argument(const Argument& a) {
   if constexpr (std::is_same_v<T, int>) return static_cast<int>(n[0]);
   if constexpr (std::is_same_v<T, bool>) return n[0] != 0;
   if constexpr (std::is_same_v<T, std::string>) return a.text;
+  if constexpr (std::is_same_v<T, FileName>) return {a.text};
+  if constexpr (std::is_same_v<T, std::vector<double>>) return a.list;
   if constexpr (std::is_same_v<T, Vector3d>) return {n[0], n[1], n[2]};
   if constexpr (std::is_same_v<T, std::array<int, 2>>)
     return {static_cast<int>(n[0]), static_cast<int>(n[1])};

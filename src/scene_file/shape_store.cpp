@@ -16,11 +16,12 @@ void ShapeStore::add(std::unique_ptr<Shape> shape, std::uint32_t material, bool 
   list.add(std::move(shape), material);
 }
 
-void ShapeStore::add_instance(const std::shared_ptr<const SharedShapes>& shared, const Transform& to_world) {
+void ShapeStore::add_instance(const std::shared_ptr<const SharedShapes>& shared, const Transform& to_world,
+                              std::uint32_t material) {
   const auto [known, is_new] =
       shared_index_.try_emplace(shared.get(), static_cast<std::uint32_t>(shared_.size()));
   if (is_new) shared_.push_back(shared);
-  instances_.push_back({known->second, glm::mat3(to_world.linear), Vector3f(to_world.translation)});
+  instances_.push_back({known->second, glm::mat3(to_world.linear), Vector3f(to_world.translation), material});
 }
 
 std::shared_ptr<const SharedShapes> ShapeStore::find_kept(const std::string& key) const {

@@ -14,11 +14,14 @@
 
 namespace raytracer::scene_file {
 
+struct MeshFile;
+
 /// What one moment of a scene leaves to the next: the shapes that do not depend on time, built once for all.
 struct KeptShapes {
   bool has_still = false;
   std::shared_ptr<const SharedShapes> still;                          ///< null where there are none
   std::map<std::string, std::shared_ptr<const SharedShapes>> by_use;  ///< of definitions
+  std::map<std::string, std::shared_ptr<MeshFile>> meshes;            ///< by file and options
 };
 
 /// A list of shapes with their materials.
@@ -37,12 +40,17 @@ class ShapeStore {
   explicit ShapeStore(KeptShapes& kept) : kept_(kept) {}
 
   void add(std::unique_ptr<Shape> shape, std::uint32_t material, bool depends_on_time);
-  void add_instance(const std::shared_ptr<const SharedShapes>& shared, const Transform& to_world);
+  /// `material`, if any, stands for the first of the shared ones.
+  void add_instance(const std::shared_ptr<const SharedShapes>& shared, const Transform& to_world,
+                    std::uint32_t material = Instance::kOwnMaterials);
+  /// Whether an earlier moment has built what stands still.
+  bool has_still() const { return kept_.has_still; }
 
   /// From here to stop_recording() all shapes go into a list of their own.
   void record(ShapeBatch& list) { recording_ = &list; }
   void stop_recording() { recording_ = nullptr; }
   bool is_recording() const { return recording_ != nullptr; }
+  ShapeBatch& recorded() { return *recording_; }
   std::uint64_t endless_made() const { return endless_made_; }
 
   std::shared_ptr<const SharedShapes> find_kept(const std::string& key) const;

@@ -41,13 +41,18 @@ void Builder::build_include(const IncludeNode& include, const Surroundings& arou
     return halt(place, fmt::format("files include each other more than {} deep", limits_.include_depth),
                 "does a file include itself?");
   }
+  // What is wrong has been told after a few turns of a loop; more of them would only take time.
+  constexpr int kMostBadTurns = 100;
+  int& failed_turns = failed_includes_[&include];
+  if (failed_turns > kMostBadTurns) return;
   const Value file = evaluator_.evaluate(include.file, *around.source, around.frame->values);
   const SyntaxTree* tree = files_.include(std::string(file.text), place, diagnostics_);
-  if (tree == nullptr) return;
+  if (tree == nullptr) {
+    ++failed_turns;
+    return;
+  }
   Surroundings inside = around;
   inside.source = tree->source;
-  // A file with mistakes in it has told them after a few turns; more of them would only take time.
-  constexpr int kMostBadTurns = 100;
   int& bad_turns = bad_includes_[tree];
   if (bad_turns > kMostBadTurns) return;
   const std::size_t errors_before = diagnostics_.error_count() + diagnostics_.repeated();

@@ -7,6 +7,8 @@
 #include "shapes/checks.hpp"
 #include "shapes/frame.hpp"
 #include "shapes/hits.hpp"
+#include "shapes/parallelogram.hpp"
+#include "shapes/part_sampling.hpp"
 
 namespace raytracer {
 
@@ -48,10 +50,22 @@ bool is_box_hit(const Ray3f& ray, const Vector& origin, const Vector& direction,
 ///      +y     -x -> x       z -> -z
 ///      -z      x -> -x     -y -> y
 ///      +z     -x -> x      -y -> y
+struct FaceAxes {
+  Vector3d u, v;  ///< unit vectors, the way that u and v grow
+};
+FaceAxes face_axes(std::uint32_t face) {
+  static const std::array<FaceAxes, 6> axes = {{{{0, 0, 1}, {0, 1, 0}},
+                                                {{0, 0, -1}, {0, 1, 0}},
+                                                {{1, 0, 0}, {0, 0, 1}},
+                                                {{1, 0, 0}, {0, 0, -1}},
+                                                {{-1, 0, 0}, {0, 1, 0}},
+                                                {{1, 0, 0}, {0, 1, 0}}}};
+  return axes[face];
+}
+
 Vector2f cube_uv(std::uint32_t face, const Vector3d& p) {
-  const std::array<Vector2f, 6> signed_uv = {Vector2f(p.z, p.y),  Vector2f(-p.z, p.y), Vector2f(p.x, p.z),
-                                             Vector2f(p.x, -p.z), Vector2f(-p.x, p.y), Vector2f(p.x, p.y)};
-  return 0.5f * signed_uv[face] + 0.5f;
+  const FaceAxes axes = face_axes(face);
+  return 0.5f * Vector2f(glm::dot(axes.u, p), glm::dot(axes.v, p)) + 0.5f;
 }
 
 Vector3d face_normal(std::uint32_t face) {
@@ -76,17 +90,60 @@ class AlignedCube final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
+    return shapes::rounded_surface(point_at(ray, hit), face_normal(hit.primitive), {});
+  }
+
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
+    const Vector3d lower(lower_), upper(upper_), size = upper - lower;
+    const Vector3d half_size = glm::max(0.5 * size, Vector3d(std::numeric_limits<double>::min()));
+    const Vector3d local = (point_at(ray, hit) - 0.5 * (lower + upper)) / half_size;
+    const FaceAxes axes = face_axes(hit.primitive);
+    SurfaceDetail detail;
+    detail.uv = cube_uv(hit.primitive, local);
+    detail.along_u = Vector3f(axes.u * size);
+    detail.along_v = Vector3f(axes.v * size);
+    return detail;
+  }
+
+  std::uint32_t part_count() const override { return 6; }
+
+  PartExtent part_extent(std::uint32_t part) const override {
+    const shapes::Parallelogram face = parallelogram(part);
+    return shapes::flat_extent(face.bounds(), face.area(), face.normal);
+  }
+
+  bool sample_part(std::uint32_t part, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    const shapes::Parallelogram face = parallelogram(part);
+    glm::dvec2 weights;
+    const float pdf = face.choose(Vector3d(from), u, weights);
+    if (!(pdf > 0)) return false;
+    const SurfacePoint point = shapes::rounded_surface(face.at(weights), face.normal, {});
+    return shapes::set_sample(point, pdf, sample);
+  }
+
+  float part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const override {
+    return parallelogram(part).pdf(Vector3d(from), Vector3d(point.position));
+  }
+
+ private:
+  Vector3d point_at(const Ray3f& ray, const Hit& hit) const {
     const Vector3d lower(lower_), upper(upper_);
     Vector3d point = Vector3d(ray.origin) + static_cast<double>(hit.t) * Vector3d(ray.direction);
     point = glm::clamp(point, lower, upper);
     const int axis = static_cast<int>(hit.primitive / 2);
     point[axis] = hit.primitive % 2 == 0 ? lower[axis] : upper[axis];
-    const Vector3d half_size = glm::max(0.5 * (upper - lower), Vector3d(std::numeric_limits<double>::min()));
-    const Vector3d local = (point - 0.5 * (lower + upper)) / half_size;
-    return shapes::rounded_surface(point, face_normal(hit.primitive), cube_uv(hit.primitive, local), {});
+    return point;
   }
 
- private:
+  shapes::Parallelogram parallelogram(std::uint32_t face) const {
+    const Vector3d lower(lower_), upper(upper_), half_size = 0.5 * (upper - lower);
+    const Vector3d normal = face_normal(face);
+    const FaceAxes axes = face_axes(face);
+    const Vector3d corner = 0.5 * (lower + upper) + half_size * (normal - axes.u - axes.v);
+    return {corner, 2.0 * half_size * axes.u, 2.0 * half_size * axes.v, normal};
+  }
+
   Vector3f lower_, upper_;
   Box3f bounds_;
 };
@@ -108,15 +165,63 @@ class FramedCube final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
-    const Vector3d normal = face_normal(hit.primitive);
-    Vector3d point = frame_.to_local(ray).at(static_cast<double>(hit.t));
-    point = glm::clamp(point, Vector3d(-1.0), Vector3d(1.0));
-    const int axis = static_cast<int>(hit.primitive / 2);
-    point[axis] = normal[axis];
-    return frame_.surface_at(point, normal, cube_uv(hit.primitive, point), 0, Vector3d(bounds_.diagonal()));
+    return surface_of(local_point(ray, hit), hit.primitive);
+  }
+
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
+    const FaceAxes axes = face_axes(hit.primitive);
+    return shapes::detail_of(frame_, cube_uv(hit.primitive, local_point(ray, hit)), 2.0 * axes.u,
+                             2.0 * axes.v);
+  }
+
+  std::uint32_t part_count() const override { return 6; }
+
+  PartExtent part_extent(std::uint32_t part) const override {
+    const shapes::Parallelogram face = parallelogram(part);
+    return shapes::flat_extent(face.bounds(), face.area(), face.normal);
+  }
+
+  bool sample_part(std::uint32_t part, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    const shapes::Parallelogram face = parallelogram(part);
+    glm::dvec2 weights;
+    const float pdf = face.choose(Vector3d(from), u, weights);
+    if (!(pdf > 0)) return false;
+    const SurfacePoint point = surface_of(local_of(part, 2.0 * weights - 1.0), part);
+    return shapes::set_sample(point, pdf, sample);
+  }
+
+  float part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const override {
+    return parallelogram(part).pdf(Vector3d(from), Vector3d(point.position));
   }
 
  private:
+  static Vector3d local_of(std::uint32_t face, const glm::dvec2& signed_uv) {
+    const FaceAxes axes = face_axes(face);
+    return face_normal(face) + signed_uv.x * axes.u + signed_uv.y * axes.v;
+  }
+
+  static Vector3d clamped_to_face(Vector3d point, std::uint32_t face) {
+    point = glm::clamp(point, Vector3d(-1.0), Vector3d(1.0));
+    const int axis = static_cast<int>(face / 2);
+    point[axis] = face % 2 == 0 ? -1 : 1;
+    return point;
+  }
+
+  Vector3d local_point(const Ray3f& ray, const Hit& hit) const {
+    return clamped_to_face(frame_.to_local(ray).at(static_cast<double>(hit.t)), hit.primitive);
+  }
+
+  SurfacePoint surface_of(const Vector3d& point, std::uint32_t face) const {
+    return frame_.surface_at(point, face_normal(face), 0, Vector3d(bounds_.diagonal()));
+  }
+
+  shapes::Parallelogram parallelogram(std::uint32_t face) const {
+    const FaceAxes axes = face_axes(face);
+    return {frame_.to_world(local_of(face, {-1, -1})), frame_.vector_to_world(2.0 * axes.u),
+            frame_.vector_to_world(2.0 * axes.v), frame_.normal_to_world(face_normal(face))};
+  }
+
   Frame frame_;
   Box3f bounds_;
 };

@@ -5,6 +5,7 @@
 #include "shapes/checks.hpp"
 #include "shapes/frame.hpp"
 #include "shapes/hits.hpp"
+#include "shapes/part_sampling.hpp"
 
 namespace raytracer {
 
@@ -43,15 +44,54 @@ class Disk final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
-    const Vector3d found = frame_.to_local(ray).at(static_cast<double>(hit.t));
-    const double distance = std::hypot(found.x, found.y);
-    const double shrink = distance > 1 ? 1 / distance : 1.0;
-    const Vector3d point(found.x * shrink, found.y * shrink, 0);
+    return surface_of(local_point(ray, hit));
+  }
+
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
+    const Vector3d point = local_point(ray, hit);
+    const double distance = std::hypot(point.x, point.y);
     const Vector2f uv(shapes::turn_share(point.x, point.y), static_cast<float>(std::min(distance, 1.0)));
-    return frame_.surface_at(point, Vector3d(0, 0, 1), uv, 0, extent_);
+    const Vector3d along_v = distance > 0 ? point / distance : Vector3d(1, 0, 0);
+    return shapes::detail_of(frame_, uv, 2 * kPi * Vector3d(-point.y, point.x, 0), along_v);
+  }
+
+  std::uint32_t part_count() const override { return 1; }
+
+  PartExtent part_extent(std::uint32_t) const override {
+    const Vector3d normal = world_normal();
+    return shapes::flat_extent(bounds_, kPi * frame_.area_scale(normal), normal);
+  }
+
+  /// Uniform over the area, whatever the frame makes of the disk.
+  bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    const SurfacePoint point = surface_of(Vector3d(shapes::point_of_disk(u), 0));
+    return shapes::set_sample(point, part_pdf(0, from, point), sample);
+  }
+
+  float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
+    // The height of `from` above the plane, free of the rounding of the point.
+    const Vector3d origin(from), normal = world_normal();
+    const Vector3d way = Vector3d(point.position) - origin;
+    const double squared = glm::dot(way, way);
+    const double facing = std::abs(glm::dot(normal, frame_.to_world(Vector3d(0.0)) - origin));
+    return shapes::usable_density(squared * std::sqrt(squared) / (kPi * frame_.area_scale(normal) * facing));
   }
 
  private:
+  Vector3d world_normal() const { return frame_.normal_to_world(Vector3d(0, 0, 1)); }
+
+  Vector3d local_point(const Ray3f& ray, const Hit& hit) const {
+    const Vector3d found = frame_.to_local(ray).at(static_cast<double>(hit.t));
+    const double distance = std::hypot(found.x, found.y);
+    const double shrink = distance > 1 ? 1 / distance : 1.0;
+    return {found.x * shrink, found.y * shrink, 0};
+  }
+
+  SurfacePoint surface_of(const Vector3d& point) const {
+    return frame_.surface_at(point, Vector3d(0, 0, 1), 0, extent_);
+  }
+
   Frame frame_;
   Box3f bounds_;
   Vector3d extent_{0.0};

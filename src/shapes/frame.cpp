@@ -16,10 +16,11 @@ Frame::Frame(const Transform& to_world)
       to_local_(glm::inverse(to_world.linear)),
       absolute_to_local_(absolute(to_local_)),
       translation_(to_world.translation),
+      volume_scale_(std::abs(glm::determinant(to_world.linear))),
       round_trip_(absolute_to_local_ * (absolute(to_world_) * Vector3d(1.0))) {}
 
-SurfacePoint Frame::surface_at(const Vector3d& point, const Vector3d& normal, const Vector2f& uv,
-                               double curvature, const Vector3d& extent, double amplification) const {
+SurfacePoint Frame::surface_at(const Vector3d& point, const Vector3d& normal, double curvature,
+                               const Vector3d& extent, double amplification) const {
   // The gradient of a function of the local point, seen from the world: its length turns local heights above
   // the surface into heights in the world.
   const Vector3d gradient = glm::transpose(to_local_) * normal;
@@ -40,7 +41,7 @@ SurfacePoint Frame::surface_at(const Vector3d& point, const Vector3d& normal, co
   bound.arithmetic = kOperations * kDoubleRounding *
                      (amplification + glm::dot(glm::abs(normal), round_trip_ + 0.125 * shift)) / steepness;
   bound.extent = extent;
-  return rounded_surface(position, gradient / steepness, uv, bound);
+  return rounded_surface(position, gradient / steepness, bound);
 }
 
 glm::dmat3 axes_around(const Vector3d& axis) {

@@ -25,13 +25,27 @@ class Frame {
   LocalRay to_local(const Ray3f& ray) const {
     return {to_local_ * (Vector3d(ray.origin) - translation_), to_local_ * Vector3d(ray.direction)};
   }
+  Vector3d to_local(const Vector3d& point) const { return to_local_ * (point - translation_); }
   Vector3d to_world(const Vector3d& point) const { return to_world_ * point + translation_; }
+  Vector3d vector_to_world(const Vector3d& vector) const { return to_world_ * vector; }
+  /// The unit normal in the world of a surface with this normal in the local space.
+  Vector3d normal_to_world(const Vector3d& normal) const {
+    return glm::normalize(glm::transpose(to_local_) * normal);
+  }
+
+  /// How much larger than in the local space a volume is in the world.
+  double volume_scale() const { return volume_scale_; }
+  /// How much larger a piece of surface is whose unit normal in the world is `normal`. By Nanson's formula it
+  /// is |det M| |M^-T n| for the local normal n; that n is along M^T `normal`.
+  double area_scale(const Vector3d& normal) const {
+    return volume_scale_ / glm::length(glm::transpose(to_world_) * normal);
+  }
 
   /// The point of the surface at the local `point` with the local unit normal `normal` (outwards stays
   /// outwards, also where the frame mirrors). `curvature` is the largest curvature of the surface there and
   /// `extent` the size of the shape in the world, see SurfaceBound. `amplification` is how much more than the
   /// rounding of a number about 1 the shape's own arithmetic is off, across the surface.
-  SurfacePoint surface_at(const Vector3d& point, const Vector3d& normal, const Vector2f& uv, double curvature,
+  SurfacePoint surface_at(const Vector3d& point, const Vector3d& normal, double curvature,
                           const Vector3d& extent, double amplification = 1) const;
 
  private:
@@ -39,8 +53,19 @@ class Frame {
   glm::dmat3 to_local_;
   glm::dmat3 absolute_to_local_;
   Vector3d translation_;
+  double volume_scale_;
   Vector3d round_trip_;  // per local axis, how much the map to the world and back magnifies rounding
 };
+
+/// What textures need of a point: uv, and how the local point moves with u and v.
+inline SurfaceDetail detail_of(const Frame& frame, const Vector2f& uv, const Vector3d& along_u,
+                               const Vector3d& along_v) {
+  SurfaceDetail detail;
+  detail.uv = uv;
+  detail.along_u = Vector3f(frame.vector_to_world(along_u));
+  detail.along_v = Vector3f(frame.vector_to_world(along_v));
+  return detail;
+}
 
 /// Right-handed axes with `axis` (not zero) as the third, of unit length. The first lies across y, as seen
 /// with y up it points to the right of one who looks against `axis`; for an axis along +y the first two are

@@ -32,20 +32,34 @@ class Plane final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
-    const Vector3d normal(normal_);
-    const Vector3d found =
-        Vector3d(ray.origin) - point_ + static_cast<double>(hit.t) * Vector3d(ray.direction);
-    const Vector3d offset = found - glm::dot(normal, found) / glm::dot(normal, normal) * normal;
+    const Vector3d offset = offset_at(ray, hit);
     shapes::SurfaceBound bound;
     bound.arithmetic = 8 * kDoubleRounding * (glm::length(point_) + glm::length(offset));
-    return shapes::rounded_surface(point_ + offset, normal,
-                                   Vector2f(glm::dot(along_u_, offset), glm::dot(along_v_, offset)), bound);
+    return shapes::rounded_surface(point_ + offset, Vector3d(normal_), bound);
+  }
+
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
+    const Vector3d offset = offset_at(ray, hit), normal(normal_);
+    SurfaceDetail detail;
+    detail.uv = Vector2f(glm::dot(along_u_, offset), glm::dot(along_v_, offset));
+    // In the plane, 1 along the one gradient and across the other.
+    const Vector3d across_v = glm::cross(along_v_, normal), across_u = glm::cross(normal, along_u_);
+    detail.along_u = Vector3f(across_v / glm::dot(along_u_, across_v));
+    detail.along_v = Vector3f(across_u / glm::dot(along_v_, across_u));
+    return detail;
   }
 
  private:
+  Vector3d offset_at(const Ray3f& ray, const Hit& hit) const {
+    const Vector3d normal(normal_);
+    const Vector3d found =
+        Vector3d(ray.origin) - point_ + static_cast<double>(hit.t) * Vector3d(ray.direction);
+    return found - glm::dot(normal, found) / glm::dot(normal, normal) * normal;
+  }
+
   Vector3d point_;
-  Vector3f normal_;  // unit length but for the rounding to float
-  Vector3d along_u_, along_v_;
+  Vector3f normal_;             // unit length but for the rounding to float
+  Vector3d along_u_, along_v_;  // the gradients of u and v
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include "raytracer/shapes.hpp"
 #include "shapes/checks.hpp"
 #include "shapes/hits.hpp"
+#include "shapes/parallelogram.hpp"
+#include "shapes/part_sampling.hpp"
 #include "shapes/surface.hpp"
 
 namespace raytracer {
@@ -57,15 +59,48 @@ class Quad final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f&, const Hit& hit) const override {
-    const Vector3d position =
-        origin_ + static_cast<double>(hit.u) * width_ + static_cast<double>(hit.v) * height_;
-    shapes::SurfaceBound bound;
-    bound.arithmetic = arithmetic_;
-    bound.extent = extent_;
-    return shapes::rounded_surface(position, normal_, {hit.u, hit.v}, bound);
+    return surface_of({static_cast<double>(hit.u), static_cast<double>(hit.v)});
+  }
+
+  SurfaceDetail detail_at(const Ray3f&, const Hit& hit) const override {
+    SurfaceDetail detail;
+    detail.uv = {hit.u, hit.v};
+    detail.along_u = Vector3f(width_);
+    detail.along_v = Vector3f(height_);
+    return detail;
+  }
+
+  std::uint32_t part_count() const override { return 1; }
+
+  PartExtent part_extent(std::uint32_t) const override {
+    return shapes::flat_extent(bounds_, parallelogram().area(), normal_);
+  }
+
+  bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    glm::dvec2 weights;
+    const float pdf = parallelogram().choose(Vector3d(from), u, weights);
+    if (!(pdf > 0)) return false;
+    const SurfacePoint point = surface_of(weights);
+    sample.u = static_cast<float>(weights.x);
+    sample.v = static_cast<float>(weights.y);
+    return shapes::set_sample(point, pdf, sample);
+  }
+
+  float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
+    return parallelogram().pdf(Vector3d(from), Vector3d(point.position));
   }
 
  private:
+  shapes::Parallelogram parallelogram() const { return {origin_, width_, height_, normal_}; }
+
+  SurfacePoint surface_of(const glm::dvec2& weights) const {
+    shapes::SurfaceBound bound;
+    bound.arithmetic = arithmetic_;
+    bound.extent = extent_;
+    return shapes::rounded_surface(parallelogram().at(weights), normal_, bound);
+  }
+
   struct PlaneHit {
     double t, u, v;
   };

@@ -3,11 +3,7 @@
 
 namespace raytracer {
 
-SurfaceDetail Shape::detail_at(const Ray3f& ray, const Hit& hit) const {
-  SurfaceDetail detail;
-  detail.uv = surface_at(ray, hit).uv;
-  return detail;
-}
+SurfaceDetail Shape::detail_at(const Ray3f&, const Hit&) const { return {}; }
 
 PartExtent Shape::part_extent(std::uint32_t) const { return {}; }
 

@@ -3,9 +3,11 @@
 
 #include "raytracer/shapes.hpp"
 #include "shapes/ball.hpp"
+#include "shapes/ball_sampling.hpp"
 #include "shapes/checks.hpp"
 #include "shapes/frame.hpp"
 #include "shapes/hits.hpp"
+#include "shapes/part_sampling.hpp"
 
 namespace raytracer {
 
@@ -27,6 +29,15 @@ using shapes::Span;
 Vector2f sphere_uv(const Vector3d& normal) {
   return {shapes::turn_share(normal.x, -normal.z),
           static_cast<float>(0.5 + std::asin(std::clamp(normal.y, -1.0, 1.0)) / kPi)};
+}
+
+/// How the point of the unit sphere with this normal moves with u and with v: circles of latitude and of
+/// longitude, once around and half around. At the poles, where u means nothing, u = 0.
+void sphere_tangents(const Vector3d& normal, Vector3d& along_u, Vector3d& along_v) {
+  const double c = std::hypot(normal.x, normal.z);
+  const Vector3d outwards = c > 0 ? Vector3d(normal.x / c, 0, normal.z / c) : Vector3d(1, 0, 0);
+  along_u = 2 * kPi * Vector3d(normal.z, 0, -normal.x);
+  along_v = kPi * (Vector3d(0, c, 0) - normal.y * outwards);
 }
 
 bool set_ball_hit(const Ray3f& ray, const Span<double>& span, Hit& hit) {
@@ -68,8 +79,48 @@ class Sphere final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
+    return surface_along(normal_at(ray, hit));
+  }
+
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
+    const Vector3d normal = normal_at(ray, hit);
+    Vector3d along_u, along_v;
+    sphere_tangents(normal, along_u, along_v);
+    SurfaceDetail detail;
+    detail.uv = sphere_uv(normal);
+    detail.along_u = Vector3f(radius_ * along_u);
+    detail.along_v = Vector3f(radius_ * along_v);
+    return detail;
+  }
+
+  std::uint32_t part_count() const override { return 1; }
+
+  PartExtent part_extent(std::uint32_t) const override {
+    return {bounds_, static_cast<float>(4 * kPi * radius_ * radius_), Vector3f(0, 1, 0), -1};
+  }
+
+  bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    const Vector3d local = (Vector3d(from) - center_) / radius_;
+    const SurfacePoint point = surface_along(shapes::choose_point_of_ball(local, u));
+    return shapes::set_sample(point, density(local, point), sample);
+  }
+
+  float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
+    return density((Vector3d(from) - center_) / radius_, point);
+  }
+
+ private:
+  Vector3d normal_at(const Ray3f& ray, const Hit& hit) const {
     const Vector3d found = Vector3d(ray.origin) + static_cast<double>(hit.t) * Vector3d(ray.direction);
-    const Vector3d normal = glm::normalize(found - center_);
+    return glm::normalize(found - center_);
+  }
+
+  static float density(const Vector3d& local_from, const SurfacePoint& point) {
+    return shapes::usable_density(shapes::ball_density(local_from, Vector3d(point.normal)));
+  }
+
+  SurfacePoint surface_along(const Vector3d& normal) const {
     const Vector3d position = center_ + radius_ * normal;
     shapes::SurfaceBound bound;
     // The least that a tangent turned by the rounding of the normal needs to clear the sphere is its square.
@@ -78,10 +129,9 @@ class Sphere final : public Shape {
     bound.bend =
         kTilt * radius_ + std::min(0.5 * glm::dot(rounding, rounding) / radius_, glm::length(rounding));
     bound.arithmetic = arithmetic_;
-    return shapes::rounded_surface(position, normal, sphere_uv(normal), bound);
+    return shapes::rounded_surface(position, normal, bound);
   }
 
- private:
   Vector3d center_;
   double radius_;
   double arithmetic_;  // error of the arithmetic on a point of the surface
@@ -107,11 +157,59 @@ class Ellipsoid final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
-    const Vector3d normal = glm::normalize(frame_.to_local(ray).at(static_cast<double>(hit.t)));
-    return frame_.surface_at(normal, normal, sphere_uv(normal), 1, Vector3d(bounds_.diagonal()));
+    return surface_along(normal_at(ray, hit));
+  }
+
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
+    const Vector3d normal = normal_at(ray, hit);
+    Vector3d along_u, along_v;
+    sphere_tangents(normal, along_u, along_v);
+    return shapes::detail_of(frame_, sphere_uv(normal), along_u, along_v);
+  }
+
+  std::uint32_t part_count() const override { return 1; }
+
+  PartExtent part_extent(std::uint32_t) const override {
+    // There is no closed formula: the mean over evenly spread points (a spiral by the golden angle).
+    constexpr int kPoints = 256;
+    constexpr double kGoldenAngle = 2.399963229728653;
+    double sum = 0;
+    for (int i = 0; i < kPoints; ++i) {
+      const double z = (2 * i + 1.0) / kPoints - 1, r = std::sqrt(1 - z * z), a = kGoldenAngle * i;
+      sum += frame_.area_scale(frame_.normal_to_world({r * std::cos(a), r * std::sin(a), z}));
+    }
+    return {bounds_, static_cast<float>(4 * kPi * sum / kPoints), Vector3f(0, 1, 0), -1};
+  }
+
+  bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    const Vector3d local = frame_.to_local(Vector3d(from));
+    const SurfacePoint point = surface_along(shapes::choose_point_of_ball(local, u));
+    return shapes::set_sample(point, density(local, point), sample);
+  }
+
+  float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
+    return density(frame_.to_local(Vector3d(from)), point);
   }
 
  private:
+  Vector3d normal_at(const Ray3f& ray, const Hit& hit) const {
+    return glm::normalize(frame_.to_local(ray).at(static_cast<double>(hit.t)));
+  }
+
+  SurfacePoint surface_along(const Vector3d& normal) const {
+    return frame_.surface_at(normal, normal, 1, Vector3d(bounds_.diagonal()));
+  }
+
+  /// A cone of directions w around a unit vector w is |det M| / |M w|^3 times as wide in the world.
+  float density(const Vector3d& local_from, const SurfacePoint& point) const {
+    const Vector3d local = glm::normalize(frame_.to_local(Vector3d(point.position)));
+    const Vector3d direction = glm::normalize(local - local_from);
+    const double stretch = glm::length(frame_.vector_to_world(direction));
+    return shapes::usable_density(shapes::ball_density(local_from, local) * stretch * stretch * stretch /
+                                  frame_.volume_scale());
+  }
+
   Frame frame_;
   Box3f bounds_;
 };

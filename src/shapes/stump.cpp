@@ -7,6 +7,7 @@
 #include "shapes/checks.hpp"
 #include "shapes/frame.hpp"
 #include "shapes/hits.hpp"
+#include "shapes/part_sampling.hpp"
 
 namespace raytracer::shapes {
 
@@ -89,27 +90,103 @@ class Stump final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
+    return surface_of(place_at(ray, hit), hit.primitive);
+  }
+
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
+    const Place place = place_at(ray, hit);
+    const float u = turn_share(place.outwards.x, place.outwards.y);
+    const Vector3d along_u = 2 * kPi * place.radius * Vector3d(-place.outwards.y, place.outwards.x, 0);
+    if (hit.primitive == kSide) {
+      return detail_of(frame_, {u, static_cast<float>(0.5 + 0.5 * place.z)}, along_u,
+                       2.0 * Vector3d(0, 0, 1) + 2 * profile_.slope * place.outwards);
+    }
+    const double rim = profile_.radius_at(place.z);
+    const float v = rim > 0 ? static_cast<float>(place.radius / rim) : 0.0f;
+    return detail_of(frame_, {u, v}, along_u, rim * place.outwards);
+  }
+
+  std::uint32_t part_count() const override { return open_ ? 1 : 3; }
+
+  PartExtent part_extent(std::uint32_t part) const override {
+    if (part == kSide) {
+      constexpr int kPoints = 64;  // there is no closed formula: the mean around the axis
+      double sum = 0;
+      for (int i = 0; i < kPoints; ++i) {
+        const double a = 2 * kPi * i / kPoints;
+        sum += frame_.area_scale(frame_.normal_to_world({std::cos(a), std::sin(a), -profile_.slope}));
+      }
+      return {bounds_, static_cast<float>(local_area(kSide) * sum / kPoints), Vector3f(0, 1, 0), -1};
+    }
+    const double z = part == kTop ? 1 : -1;
+    const Vector3d normal = frame_.normal_to_world({0, 0, z});
+    const Vector3d center = frame_.to_world(Vector3d(0, 0, z));
+    const Vector3d x = frame_.vector_to_world({1, 0, 0}), y = frame_.vector_to_world({0, 1, 0});
+    const Vector3d reach = profile_.radius_at(z) * glm::sqrt(x * x + y * y);
+    return flat_extent(rounded_bounds(center - reach, center + reach),
+                       local_area(part) * frame_.area_scale(normal), normal);
+  }
+
+  /// Uniform over the area that the part has in the frame.
+  bool sample_part(std::uint32_t part, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    if (!(local_area(part) > 0)) return false;
+    const double angle = 2 * kPi * static_cast<double>(u.x), share = static_cast<double>(u.y);
+    Place place = {Vector3d(std::cos(angle), std::sin(angle), 0), 0, part == kTop ? 1.0 : -1.0};
+    if (part == kSide) {
+      const double low = profile_.radius_at(-1), high = profile_.radius_at(1);
+      const double mean = std::sqrt(low * low + share * (high * high - low * low));
+      place.z = std::clamp(low + mean > 0 ? 2 * share * (low + high) / (low + mean) - 1 : -1, -1.0, 1.0);
+      place.radius = profile_.radius_at(place.z);
+    } else {
+      place.radius = std::sqrt(share) * profile_.radius_at(place.z);
+    }
+    const SurfacePoint point = surface_of(place, part);
+    return set_sample(point, part_pdf(part, from, point), sample);
+  }
+
+  float part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const override {
+    const double area = local_area(part);
+    if (!(area > 0)) return 0;
+    const Vector3d normal(point.normal);
+    return seen_density(1 / (area * frame_.area_scale(normal)), Vector3d(from), Vector3d(point.position),
+                        normal);
+  }
+
+ private:
+  /// A point of the local surface: radius * outwards, z high.
+  struct Place {
+    Vector3d outwards;  // unit length, across the axis
+    double radius, z;
+  };
+
+  Place place_at(const Ray3f& ray, const Hit& hit) const {
     const Vector3d found = frame_.to_local(ray).at(static_cast<double>(hit.t));
     const double distance = std::hypot(found.x, found.y);
     const Vector3d outwards =
         distance > 0 ? Vector3d(found.x / distance, found.y / distance, 0) : Vector3d(1, 0, 0);
-    const float u = turn_share(outwards.x, outwards.y);
     if (hit.primitive == kSide) {
       const double z = std::clamp(found.z, -1.0, 1.0);
-      const double radius = std::max(profile_.radius_at(z), 0.0);
-      constexpr double kTip = 1e-30;  // the tip of a cone bends infinitely
-      return frame_.surface_at(radius * outwards + Vector3d(0, 0, z),
-                               glm::normalize(outwards - Vector3d(0, 0, profile_.slope)),
-                               {u, static_cast<float>(0.5 + 0.5 * z)}, 1 / std::max(radius, kTip), extent_);
+      return {outwards, std::max(profile_.radius_at(z), 0.0), z};
     }
     const double z = hit.primitive == kTop ? 1 : -1;
-    const double rim = profile_.radius_at(z);
-    const double radius = std::min(distance, rim);
-    const float v = rim > 0 ? static_cast<float>(radius / rim) : 0.0f;
-    return frame_.surface_at(radius * outwards + Vector3d(0, 0, z), Vector3d(0, 0, z), {u, v}, 0, extent_);
+    return {outwards, std::min(distance, profile_.radius_at(z)), z};
   }
 
- private:
+  SurfacePoint surface_of(const Place& place, std::uint32_t part) const {
+    const Vector3d point = place.radius * place.outwards + Vector3d(0, 0, place.z);
+    if (part != kSide) return frame_.surface_at(point, Vector3d(0, 0, place.z), 0, extent_);
+    constexpr double kTip = 1e-30;  // the tip of a cone bends infinitely
+    return frame_.surface_at(point, glm::normalize(place.outwards - Vector3d(0, 0, profile_.slope)),
+                             1 / std::max(place.radius, kTip), extent_);
+  }
+
+  double local_area(std::uint32_t part) const {
+    const double low = profile_.radius_at(-1), high = profile_.radius_at(1);
+    if (part == kSide) return kPi * (low + high) * std::hypot(2.0, high - low);
+    return part == kTop ? kPi * high * high : kPi * low * low;
+  }
+
   static bool is_open_hit(const Ray3f& ray, const Span<double>& height, const Span<double>& roots, Hit& hit) {
     for (const double t : {roots.near, roots.far}) {
       if (t >= height.near && t <= height.far && is_on_ray(ray, t)) {

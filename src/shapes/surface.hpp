@@ -23,14 +23,13 @@ struct SurfaceBound {
 /// normal (computed in float), or as far on the other side, starts beyond the surface: the bound adds up how
 /// far the rounded position is off along the normal, how far the rounded origin of the ray may be, and
 /// `bound`.
-inline SurfacePoint rounded_surface(const Vector3d& position, const Vector3d& normal, const Vector2f& uv,
+inline SurfacePoint rounded_surface(const Vector3d& position, const Vector3d& normal,
                                     const SurfaceBound& bound) {
   constexpr double kSlack = 1.01;  // for the product and the terms of second order
   SurfacePoint point;
   point.position = Vector3f(position);
   point.normal = Vector3f(normal);
   point.shading_normal = point.normal;
-  point.uv = uv;
   const Vector3d off = as_float(position) - position;
   const double rounding = kFloatRounding * glm::dot(glm::abs(normal), glm::abs(position));
   const double tilt = glm::dot(glm::abs(as_float(normal) - normal), bound.extent);

@@ -6,6 +6,7 @@
 #include "shapes/checks.hpp"
 #include "shapes/frame.hpp"
 #include "shapes/hits.hpp"
+#include "shapes/part_sampling.hpp"
 
 namespace raytracer {
 
@@ -145,6 +146,59 @@ class Torus final : public Shape {
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
+    return surface_of(place_at(ray, hit));
+  }
+
+  SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
+    const Place place = place_at(ray, hit);
+    const Vector3d& outwards = place.outwards;
+    const double cosine = glm::dot(place.normal, outwards), sine = place.normal.z;
+    const Vector2f uv(shapes::turn_share(outwards.x, outwards.y), shapes::turn_share(cosine, sine));
+    return shapes::detail_of(frame_, uv,
+                             2 * kPi * (ring_ + tube_ * cosine) * Vector3d(-outwards.y, outwards.x, 0),
+                             2 * kPi * tube_ * (Vector3d(0, 0, cosine) - sine * outwards));
+  }
+
+  std::uint32_t part_count() const override { return 1; }
+
+  PartExtent part_extent(std::uint32_t) const override {
+    constexpr int kPoints = 32;  // around and across: there is no closed formula
+    double sum = 0, weights = 0;
+    for (int i = 0; i < kPoints * kPoints; ++i) {
+      const double a = 2 * kPi * (i % kPoints) / kPoints, b = 2 * kPi * (i / kPoints) / kPoints;
+      const double weight = std::abs(ring_ + tube_ * std::cos(b));
+      const Vector3d normal(std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b));
+      sum += weight * frame_.area_scale(frame_.normal_to_world(normal));
+      weights += weight;
+    }
+    return {bounds_, static_cast<float>(local_area() * sum / weights), Vector3f(0, 1, 0), -1};
+  }
+
+  /// Uniform over the area that the torus has in the frame.
+  bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
+                   ShapeSample& sample) const override {
+    const double around = 2 * kPi * static_cast<double>(u.x);
+    const Vector3d outwards(std::cos(around), std::sin(around), 0);
+    const double across = angle_across(static_cast<double>(u.y));
+    const Vector3d normal = std::cos(across) * outwards + Vector3d(0, 0, std::sin(across));
+    const SurfacePoint point = surface_of({outwards, normal});
+    return shapes::set_sample(point, part_pdf(0, from, point), sample);
+  }
+
+  float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
+    const Vector3d normal(point.normal);
+    return shapes::seen_density(1 / (local_area() * frame_.area_scale(normal)), Vector3d(from),
+                                Vector3d(point.position), normal);
+  }
+
+ private:
+  /// A point of the local surface: ring * outwards + tube * normal.
+  struct Place {
+    Vector3d outwards;  // unit length, across the axis
+    Vector3d normal;    // unit length
+  };
+
+  Place place_at(const Ray3f& ray, const Hit& hit) const {
     const Vector3d found = frame_.to_local(ray).at(static_cast<double>(hit.t));
     const double distance = std::hypot(found.x, found.y);
     Vector3d outwards =
@@ -154,19 +208,41 @@ class Torus final : public Shape {
       return std::abs(glm::length(found - ring_ * side) - tube_);
     };
     if (error(-outwards) < error(outwards)) outwards = -outwards;
+    return {outwards, glm::normalize(found - ring_ * outwards)};
+  }
 
-    const Vector3d normal = glm::normalize(found - ring_ * outwards);
-    const Vector3d point = ring_ * outwards + tube_ * normal;
-    const Vector2f uv(shapes::turn_share(outwards.x, outwards.y),
-                      shapes::turn_share(glm::dot(normal, outwards), normal.z));
+  SurfacePoint surface_of(const Place& place) const {
+    const Vector3d point = ring_ * place.outwards + tube_ * place.normal;
     constexpr double kOnAxis = 1e-6;
     const double from_axis = std::max(std::hypot(point.x, point.y), kOnAxis);
     // The gradient of the quartic is 8 ring tube from_axis long; twice, for its rounding and for kTouch.
-    return frame_.surface_at(point, normal, uv, std::max(1 / tube_, 1 / from_axis),
+    return frame_.surface_at(point, place.normal, std::max(1 / tube_, 1 / from_axis),
                              Vector3d(bounds_.diagonal()), 1 / (4 * ring_ * tube_ * from_axis));
   }
 
- private:
+  // Around the tube from the outside the distance from the axis is ring + tube cos(angle); below 0 the tube
+  // has crossed the axis. Its integral, and the angle where that happens:
+  double integral(double angle) const { return ring_ * angle + tube_ * std::sin(angle); }
+  double turning_angle() const { return tube_ > ring_ ? std::acos(-ring_ / tube_) : kPi; }
+
+  // Of the upper half of the tube, a share of the area.
+  double half_integral() const { return 2 * integral(turning_angle()) - integral(kPi); }
+  double local_area() const { return 4 * kPi * tube_ * half_integral(); }
+
+  /// The angle around the tube with the share `u` of the area below it, upper half first.
+  double angle_across(double u) const {
+    const double sign = u < 0.5 ? 1 : -1;
+    const double wanted = (u < 0.5 ? 2 * u : 2 * u - 1) * half_integral();
+    const double turn = turning_angle(), at_turn = integral(turn);
+    const bool is_first = wanted <= at_turn;
+    const auto function = [&](double angle) {
+      const double rising = integral(angle), slope = ring_ + tube_ * std::cos(angle);
+      return is_first ? std::pair(rising - wanted, slope) : std::pair(2 * at_turn - rising - wanted, -slope);
+    };
+    return sign *
+           (is_first ? monotonic_root(function, 0, turn, true) : monotonic_root(function, turn, kPi, true));
+  }
+
   static constexpr double kSpare = 1e-9;  // about t_min and t_max, until a root is known
   // Added to the inside, about the rounding of the quartic: a line along the axis of a spindle only touches
   // its tips, and is to hit them.

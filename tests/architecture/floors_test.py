@@ -37,7 +37,7 @@ FORBIDDEN_PUBLIC = {("render", "scene_file.hpp")}
 LIBRARIES = {
     "Embree": (r"embree\d?/", {"src/scene/embree.hpp"}),
     "oneTBB": (r"(oneapi/)?tbb[/.]", {"src/core/parallel.cpp"}),
-    "libpng": (r"png\.h|libpng", {"src/image/png.cpp"}),
+    "libpng": (r"png\.h|libpng", {"src/image/png.cpp", "src/image/read_png.cpp"}),
     "zlib": (r"z(lib|conf)\.h", {"src/image/zlib_pieces.cpp"}),
     "OpenEXR": (r"(OpenEXR/)?(Imf|Imath|Iex|half)", {"src/image/exr.cpp"}),
     "libjpeg": (r"j(peglib|error|config)\.h", {"src/image/jpeg.cpp"}),

@@ -249,7 +249,7 @@ class Mistakes(unittest.TestCase):
 
 def limited():
     """For preexec_fn: a second of processor time, little memory."""
-    resource.setrlimit(resource.RLIMIT_CPU, (1, 2))
+    program.limit_processor_time(1)
     program.limit_memory(400 << 20)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 

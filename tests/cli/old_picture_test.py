@@ -85,6 +85,7 @@ class OldPicture(unittest.TestCase):
             disk.rmdir()
         self.assert_untouched()
 
+    @unittest.skipIf(program.IS_SANITIZED, "the memory of a sanitized build can't be limited")
     def test_survives_too_little_memory(self):
         def limit():
             program.limit_memory(4 << 30)

@@ -295,8 +295,12 @@ TEST_CASE("a hit is a point of the surface, within bounds, with a unit normal", 
     if (!is_inside) return "outside of bounds";
     if (!is_unit(point.normal) || point.shading_normal != point.normal) return "normal is not unit";
     const auto is_share = [](float x) { return x >= 0 && x <= 1; };
-    if (box.is_finite() && !(is_share(point.uv.x) && is_share(point.uv.y))) {
-      return complain("uv out of range", {point.uv.x, point.uv.y});
+    const SurfaceDetail detail = placed.shape->detail_at(ray, hit);
+    if (box.is_finite() && !(is_share(detail.uv.x) && is_share(detail.uv.y))) {
+      return complain("uv out of range", {detail.uv.x, detail.uv.y});
+    }
+    if (!std::isfinite(glm::length(detail.along_u)) || !std::isfinite(glm::length(detail.along_v))) {
+      return "the tangents are no numbers";
     }
     if (!(point.position_error >= 0) || !std::isfinite(point.position_error))
       return "error bound is no number";

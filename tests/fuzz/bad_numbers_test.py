@@ -59,7 +59,7 @@ def scene_around(kind, one_block):
 
 
 def limit():
-    resource.setrlimit(resource.RLIMIT_CPU, (5, 6))
+    program.limit_processor_time(5)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 

@@ -16,7 +16,7 @@ GIB = 1 << 30
 def limits(seconds, memory):
     """For preexec_fn: beyond its processor time the program is killed, beyond its memory it gets none."""
     def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+        program.limit_processor_time(seconds)
         program.limit_memory(memory)
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     return limit

@@ -1,0 +1,374 @@
+#include "integrators/path_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/hash.hpp"
+#include "materials/absorption.hpp"
+
+namespace raytracer {
+namespace {
+
+// The pairs of PathPoints that each bounce takes, after those of the camera.
+constexpr std::uint32_t kCameraPairs = 2, kPairsPerBounce = 4;
+
+// From here on the roulette decides whether a path is worth following.
+constexpr int kFirstRoulette = 3;
+
+float largest(const Color3f& c) { return std::max({c.x, c.y, c.z}); }
+
+bool is_black(const Color3f& c) { return !(c.x > 0 || c.y > 0 || c.z > 0); }
+
+// The power heuristic with exponent 2 (Veach 1997, section 9.2.4): the weight of a choice with density a that
+// another strategy would have made with density b.
+float power_heuristic(float a, float b) {
+  if (!(b > 0)) return 1;
+  if (!(a > 0)) return 0;
+  // As a ratio: the squares of large densities leave the range of float.
+  const float ratio = b / a;
+  return 1 / (1 + ratio * ratio);
+}
+
+// The weight of light that the material's choice, of density `chosen`, has met, and that the lights would
+// have chosen with density `by_lights`.
+float weight_of_met(Sampling sampling, float chosen, float by_lights) {
+  if (sampling == Sampling::kMaterials || !(by_lights > 0)) return 1;
+  return sampling == Sampling::kLights ? 0 : power_heuristic(chosen, by_lights);
+}
+
+bool is_cutout(const Material& material) {
+  return material.alpha < 1 || (material.textures != nullptr && material.textures->alpha != nullptr);
+}
+
+bool any_material(const SceneDescription& scene, bool (*fits)(const Material&)) {
+  if (std::ranges::any_of(scene.materials, fits)) return true;
+  return std::ranges::any_of(scene.shared, [&](const auto& shared) {
+    for (std::uint32_t i = 0; i < shared->size(); ++i) {
+      if (fits(shared->material_of(i))) return true;
+    }
+    return false;
+  });
+}
+
+}  // namespace
+
+// --- where the eye is
+// ------------------------------------------------------------------------------------------
+
+Media media_at(const Scene& scene, const Vector3f& position) {
+  Media media;
+  if (!any_material(scene.description(), has_inside)) return media;
+  // Whatever the way out leaves without having entered it is around the point, the innermost first.
+  constexpr int kMostSurfaces = 256;
+  Media met;
+  Ray3f ray{position, scene.camera().forward()};
+  Hit hit;
+  for (int i = 0; i < kMostSurfaces && scene.is_hit(ray, hit); ++i) {
+    const Material* material = &scene.material_of(hit);
+    if (has_inside(*material)) {
+      const bool leaves = glm::dot(scene.surface_at(ray, hit).normal, ray.direction) > 0;
+      if (!leaves) {
+        met.enter(material);
+      } else if (met.innermost() != nullptr) {
+        met.leave(met.innermost());
+      } else {
+        media.surround(material);
+      }
+    }
+    ray.t_min = std::nextafter(hit.t, kInfinity);
+    hit = Hit{};
+  }
+  return media;
+}
+
+// --- paths
+// -----------------------------------------------------------------------------------------------------
+
+struct PathTracer::Vertex {
+  const Hit& hit;
+  const Material& material;  // as the scene has it: tells media apart
+  const Material* resolved;  // with its textures' values here
+  SurfacePoint surface;
+  Vector3f facing;  // the geometric normal on the side from which the ray came
+  Vector3f out;     // unit length, back along the ray
+
+  Vector3f offset_position(const Vector3f& direction, const std::optional<float>& epsilon) const {
+    const float offset = epsilon.value_or(surface.position_error);
+    return surface.position + (glm::dot(direction, surface.normal) > 0 ? offset : -offset) * surface.normal;
+  }
+  // Where a ray to a light starts.
+  Vector3f shadow_position(const Vector3f& direction, const std::optional<float>& epsilon) const {
+    const bool is_reflected = glm::dot(direction, facing) > 0;
+    return offset_position(direction, epsilon) + (is_reflected ? surface.shadow_offset : Vector3f(0));
+  }
+};
+
+PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings, const PathPoints& points,
+                       const Media& media)
+    : scene_(scene),
+      settings_(settings),
+      points_(points),
+      media_(media),
+      lights_(scene.lights()),
+      has_cutouts_(any_material(scene.description(), is_cutout)) {}
+
+void PathTracer::trace(std::span<const ConeRay> rays, std::span<const PathNumber> numbers,
+                       std::span<Color3f> colors) {
+  colors_ = colors;
+  std::ranges::fill(colors, Color3f(0));
+  paths_.clear();
+  paths_.resize(rays.size());
+  numbers_.assign(numbers.begin(), numbers.end());
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    paths_[i].ray = rays[i].ray;
+    paths_[i].cone_width = rays[i].width;
+    paths_[i].cone_spread = rays[i].spread;
+    paths_[i].slot = i;
+    paths_[i].media = media_;
+  }
+  for (int depth = 0; !paths_.empty(); ++depth) {
+    find_hits(depth);
+    draw_points(depth);
+    shade(depth);
+  }
+}
+
+void PathTracer::draw_points(int depth) {
+  const std::uint32_t first = kCameraPairs + kPairsPerBounce * static_cast<std::uint32_t>(depth);
+  std::vector<Vector2f>* const pairs[kPairsPerBounce] = {&light_points_, &choice_points_, &scatter_points_,
+                                                         &chance_points_};
+  for (std::uint32_t i = 0; i < kPairsPerBounce; ++i) {
+    pairs[i]->resize(paths_.size());
+    points_.fill(first + i, numbers_, *pairs[i]);
+  }
+}
+
+// The eye's rays go the same way; scattered ones are as fast one by one.
+void PathTracer::find_hits(int depth) {
+  const std::size_t count = paths_.size();
+  ray_count_ += count;
+  hits_.assign(count, Hit{});
+  is_hit_.assign(count, 0);
+  if (depth == 0) {
+    rays_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) rays_[i] = paths_[i].ray;
+    for (std::size_t first = 0; first < count; first += kMostRays) {
+      const std::size_t size = std::min(kMostRays, count - first);
+      const std::uint32_t found = scene_.is_hit(std::span(rays_).subspan(first, size),
+                                                std::span(hits_).subspan(first, size), Coherence::kCoherent);
+      for (std::size_t i = 0; i < size; ++i) is_hit_[first + i] = found >> i & 1U;
+    }
+  } else {
+    for (std::size_t i = 0; i < count; ++i) is_hit_[i] = scene_.is_hit(paths_[i].ray, hits_[i]) ? 1 : 0;
+  }
+  for (std::uint32_t i = 0; i < count; ++i) pass_through(paths_[i], i, depth);
+}
+
+// Goes on along the ray behind whatever is not there for this path.
+void PathTracer::pass_through(Path& path, std::uint32_t index, int depth) {
+  constexpr std::uint32_t kMostPasses = 1000;
+  for (std::uint32_t passes = 0; is_hit_[index] != 0 && is_passed(path, index, depth, passes); ++passes) {
+    path.ray.t_min = std::nextafter(hits_[index].t, kInfinity);
+    hits_[index] = Hit{};
+    ++ray_count_;
+    is_hit_[index] = passes < kMostPasses && scene_.is_hit(path.ray, hits_[index]) ? 1 : 0;
+  }
+}
+
+bool PathTracer::is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const {
+  const Hit& hit = hits_[index];
+  const Material& material = scene_.material_of(hit);
+  if (!material.is_visible && material.is_area_light && depth == 0) return true;
+  if (!has_cutouts_ || !is_cutout(material)) return false;
+  const std::uint32_t bits = hash_bits(
+      numbers_[index].reversed ^
+      hash_bits(settings_.seed + 0x9E3779B9U * (static_cast<std::uint32_t>(depth) * 1024U + passes)));
+  return unit_float(bits) >= scene_.alpha_at(path.ray, hit);
+}
+
+void PathTracer::shade(int depth) {
+  std::size_t kept = 0;
+  waiting_.count = 0;
+  for (std::uint32_t i = 0; i < paths_.size(); ++i) {
+    if (is_hit_[i] == 0) {
+      add_sky(paths_[i], depth);
+    } else if (shade_hit(paths_[i], i, depth)) {
+      paths_[kept] = paths_[i];
+      numbers_[kept] = numbers_[i];
+      ++kept;
+    }
+  }
+  add_unoccluded();
+  paths_.resize(kept);
+  numbers_.resize(kept);
+}
+
+// The light of one vertex; false where the path ends there.
+bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
+  const Hit& hit = hits_[index];
+  const Material& material = scene_.material_of(hit);
+  Vertex vertex{hit, material, &material, scene_.surface_at(path.ray, hit), {}, {}};
+  const float length = glm::length(path.ray.direction);
+  vertex.out = -path.ray.direction / length;
+  const bool is_outside = glm::dot(vertex.surface.normal, vertex.out) > 0;
+  vertex.facing = is_outside ? vertex.surface.normal : -vertex.surface.normal;
+  const float distance = hit.t * length;
+  path.cone_width += distance * path.cone_spread;
+
+  if (const Material* medium = path.media.innermost()) {
+    path.throughput *= glm::exp(-distance * absorption_of(*medium));
+  }
+  std::optional<Material> textured;
+  if (material.textures != nullptr || scene_.has_vertex_colors()) {
+    textured = scene_.textured(path.ray, hit, path.cone_width, vertex.surface);
+    vertex.resolved = &*textured;
+  }
+  if (vertex.resolved->is_emissive()) add_emission(path, vertex, depth);
+  if (material.is_area_light || depth >= settings_.bounces || is_black(path.throughput)) return false;
+
+  BsdfFrame frame;
+  frame.geometric_normal = vertex.surface.normal;
+  frame.normal = vertex.surface.shading_normal;
+  if (material.anisotropy != 0) frame.tangent = scene_.detail_at(path.ray, hit).along_u;
+  if (has_inside(material)) {
+    frame.ior_outside = is_outside ? path.media.ior() : path.media.ior_without(&material);
+    frame.ior_inside = material.ior;
+  } else {
+    frame.ior_outside = path.media.ior();
+    frame.ior_inside = material.ior;
+  }
+  const Bsdf bsdf(*vertex.resolved, frame);
+  if (!bsdf.is_delta()) add_direct_light(path, vertex, bsdf, index, depth);
+  return scatter(path, vertex, bsdf, index, depth);
+}
+
+void PathTracer::add_sky(const Path& path, int depth) {
+  const SceneDescription& scene = scene_.description();
+  if (scene.sky == nullptr || (depth == 0 && !scene.is_sky_visible)) {
+    add(path.slot, path.throughput * scene.background, depth);
+    return;
+  }
+  const Vector3f direction = glm::normalize(path.ray.direction);
+  float weight = 1;
+  if (path.pdf > 0) {
+    weight =
+        weight_of_met(settings_.sampling, path.pdf, lights_.sky_pdf(path.from, path.from_normal, direction));
+  }
+  add(path.slot, weight * path.throughput * scene.sky->radiance(direction), depth);
+}
+
+void PathTracer::add_emission(const Path& path, const Vertex& vertex, int depth) {
+  if (vertex.resolved->is_area_light && glm::dot(vertex.surface.normal, vertex.out) <= 0) return;
+  float weight = 1;
+  if (path.pdf > 0) {
+    weight = weight_of_met(settings_.sampling, path.pdf,
+                           lights_.pdf(path.from, path.from_normal, vertex.hit, vertex.surface));
+  }
+  add(path.slot, weight * path.throughput * vertex.resolved->emission, depth);
+}
+
+// Looks at one light, chosen by what it may contribute.
+void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const Bsdf& bsdf,
+                                  std::uint32_t index, int depth) {
+  const Vector3f normal = vertex.resolved->transmission > 0 ? Vector3f(0) : vertex.facing;
+  LightSample light;
+  if (!lights_.sample(vertex.surface.position, normal, choice_points_[index].x, light_points_[index], light))
+    return;
+  if (settings_.sampling == Sampling::kMaterials && !light.is_delta) return;
+  const Color3f value = bsdf.evaluate(vertex.out, light.direction);
+  if (is_black(value) || !(light.pdf > 0)) return;
+  float weight = 1;
+  if (!light.is_delta && settings_.sampling == Sampling::kBoth) {
+    weight = power_heuristic(light.pdf, bsdf.pdf(vertex.out, light.direction));
+  }
+  const std::size_t i = waiting_.count++;
+  waiting_.rays[i] = light.shadow_ray(vertex.shadow_position(light.direction, scene_.description().epsilon));
+  // Multiplied in this order nothing overflows that is not too large itself.
+  waiting_.light[i] = path.throughput * value * (weight / light.pdf) * light.radiance;
+  waiting_.slot[i] = path.slot;
+  if (depth > 0 && settings_.clamp_indirect > 0) {
+    const float most = largest(waiting_.light[i]);
+    if (most > settings_.clamp_indirect) waiting_.light[i] *= settings_.clamp_indirect / most;
+  }
+  if (waiting_.count == kMostRays) add_unoccluded();
+}
+
+// Chooses where the path goes on; false where it ends.
+bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std::uint32_t index, int depth) {
+  BsdfSample sample;
+  if (!bsdf.sample(vertex.out, choice_points_[index].y, scatter_points_[index], sample)) return false;
+  path.throughput *= sample.weight;
+  path.pdf = sample.is_delta ? 0 : sample.pdf;
+  path.from = vertex.surface.position;
+  path.from_normal = vertex.resolved->transmission > 0 ? Vector3f(0) : vertex.facing;
+  path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
+  if (!sample.is_delta) path.cone_spread = std::max(path.cone_spread, 0.1F);
+  if (sample.is_transmission && has_inside(vertex.material)) {
+    const float before = path.media.ior();
+    if (glm::dot(sample.direction, vertex.surface.normal) < 0) {
+      path.media.enter(&vertex.material);
+    } else {
+      path.media.leave(&vertex.material);
+    }
+    const float ratio = path.media.ior() / before;
+    path.radiance_scale *= ratio * ratio;
+  }
+  const float survival = roulette(path, depth, chance_points_[index].x);
+  path.throughput *= survival;
+  return survival > 0;
+}
+
+// By what a path that goes on stands for those that don't; 0 for one of these. Compares with what the path
+// began with, never with an amount of light; radiance that a refraction has compressed comes back when it
+// leaves.
+float PathTracer::roulette(const Path& path, int depth, float u) const {
+  const float strength = largest(path.throughput);
+  if (!(strength > 0) || !(strength < kInfinity)) return 0;
+  const float survival = strength / path.radiance_scale;
+  if (depth < kFirstRoulette || survival >= 1) return 1;
+  return u < survival ? 1 / survival : 0;
+}
+
+void PathTracer::add(std::uint32_t slot, Color3f light, int depth) {
+  const float most = largest(light);
+  if (!(most < kInfinity) || !(glm::dot(light, Color3f(1)) >= 0)) return;  // no NaN ever reaches the picture
+  if (depth > 1 && settings_.clamp_indirect > 0 && most > settings_.clamp_indirect) {
+    light *= settings_.clamp_indirect / most;
+  }
+  colors_[slot] += light;
+}
+
+void PathTracer::add_unoccluded() {
+  const std::size_t count = waiting_.count;
+  waiting_.count = 0;
+  if (count == 0) return;
+  ray_count_ += count;
+  if (has_cutouts_) {
+    for (std::size_t i = 0; i < count; ++i) {
+      add(waiting_.slot[i], share_seen(waiting_.rays[i]) * waiting_.light[i], 0);
+    }
+    return;
+  }
+  const std::uint32_t hidden = scene_.is_occluded(std::span(waiting_.rays, count), Coherence::kIncoherent);
+  for (std::size_t i = 0; i < count; ++i) {
+    if ((hidden >> i & 1U) == 0) add(waiting_.slot[i], waiting_.light[i], 0);
+  }
+}
+
+// How much of the light along a shadow ray the cut-outs in its way let pass.
+float PathTracer::share_seen(Ray3f ray) const {
+  constexpr int kMostSurfaces = 1000;
+  float share = 1;
+  Hit hit;
+  for (int i = 0; i < kMostSurfaces && scene_.is_hit(ray, hit); ++i) {
+    if (!is_cutout(scene_.material_of(hit))) return 0;
+    share *= 1 - scene_.alpha_at(ray, hit);
+    if (!(share > 0)) return 0;
+    ray.t_min = std::nextafter(hit.t, kInfinity);
+    hit = Hit{};
+  }
+  return share;
+}
+
+}  // namespace raytracer

@@ -1,0 +1,101 @@
+// Unbiased path tracing with next-event estimation and multiple importance sampling (Veach 1997, "Robust
+// Monte Carlo methods for light transport simulation", chapters 9 and 10).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "integrators/media.hpp"
+#include "materials/bsdf.hpp"
+#include "raytracer/render.hpp"
+#include "raytracer/scene.hpp"
+#include "sampling/path_points.hpp"
+#include "scene/light_set.hpp"
+
+namespace raytracer {
+
+/// A ray with how wide the part of the picture is that it stands for: at distance t of a ray with unit
+/// direction, width + t * spread.
+struct ConeRay {
+  Ray3f ray;
+  float width = 0;
+  float spread = 0;
+};
+
+/// The media around the eye: what a path starts inside of.
+Media media_at(const Scene& scene, const Vector3f& position);
+
+/// Follows many paths at once, bounce by bounce, so that the shadow rays of every depth are traced in
+/// packets. Keeps its memory from one call to the next.
+class PathTracer {
+ public:
+  /// All of them must outlive it.
+  PathTracer(const Scene& scene, const RenderSettings& settings, const PathPoints& points,
+             const Media& media);
+
+  /// colors[i] becomes the radiance, 1 is white, that one path along rays[i] estimates. Its random numbers
+  /// are those of numbers[i]; pair 0 of them has been spent on the picture and pair 1 on the lens.
+  void trace(std::span<const ConeRay> rays, std::span<const PathNumber> numbers, std::span<Color3f> colors);
+
+  /// How many rays that took so far.
+  std::uint64_t rays() const { return ray_count_; }
+
+ private:
+  struct Path {
+    Ray3f ray;
+    Color3f throughput{1};
+    Vector3f from{0}, from_normal{0};  // where the ray's direction was chosen, as LightSet wants it
+    float pdf = 0;  // of that choice; 0: the eye's or a mirror's, which no light could have chosen
+    float cone_width = 0, cone_spread = 0;
+    float radiance_scale = 1;  // what refractions have made of the throughput, for the roulette
+    std::uint32_t slot = 0;    // in colors
+    Media media;
+  };
+
+  // Shadow rays that wait until they are a packet, and what each lets pass.
+  struct ShadowRays {
+    std::size_t count = 0;
+    Ray3f rays[kMostRays];
+    Color3f light[kMostRays];
+    std::uint32_t slot[kMostRays];
+  };
+
+  // A path's latest hit, with all that shading needs.
+  struct Vertex;
+
+  void find_hits(int depth);
+  void pass_through(Path& path, std::uint32_t index, int depth);
+  bool is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const;
+  void shade(int depth);
+  bool shade_hit(Path& path, std::uint32_t index, int depth);
+  void add_sky(const Path& path, int depth);
+  void add_emission(const Path& path, const Vertex& vertex, int depth);
+  void add_direct_light(const Path& path, const Vertex& vertex, const Bsdf& bsdf, std::uint32_t index,
+                        int depth);
+  bool scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std::uint32_t index, int depth);
+  float roulette(const Path& path, int depth, float u) const;
+  void add(std::uint32_t slot, Color3f light, int depth);
+  void add_unoccluded();
+  float share_seen(Ray3f ray) const;
+  void draw_points(int depth);
+
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  const PathPoints& points_;
+  const Media& media_;
+  const LightSet& lights_;
+  bool has_cutouts_;
+  std::uint64_t ray_count_ = 0;
+
+  std::vector<Path> paths_;  // those that go on; compacted after every bounce
+  std::vector<PathNumber> numbers_;
+  std::vector<Ray3f> rays_;
+  std::vector<Hit> hits_;
+  std::vector<std::uint8_t> is_hit_;
+  std::vector<Vector2f> light_points_, choice_points_, scatter_points_, chance_points_;
+  std::span<Color3f> colors_;
+  ShadowRays waiting_;
+};
+
+}  // namespace raytracer

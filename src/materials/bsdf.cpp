@@ -1,0 +1,571 @@
+#include "materials/bsdf.hpp"
+
+#include <cmath>
+
+#include "materials/fresnel.hpp"
+#include "materials/ggx.hpp"
+#include "sampling/hemisphere.hpp"
+
+namespace raytracer {
+
+namespace {
+
+constexpr float kInversePi = 0.3183098861837907F;
+// Facets of less roughness are a mirror or a clear pane: rounding of directions is no longer small to it.
+constexpr float kLeastAlpha = 1e-4F;
+// Facets that spread refracted light less than this are a clear pane, for the same reason.
+constexpr float kLeastSpread = 2e-5F;
+// Of light held back by facets, less than this is not worth making up for.
+constexpr float kLeastLoss = 1e-5F;
+constexpr float kCoatIor = 1.5F;
+
+// Not a number counts as 0.
+float share(float x) { return x > 0 ? std::min(x, 1.0F) : 0.0F; }
+Color3f share(const Color3f& c) { return {share(c.x), share(c.y), share(c.z)}; }
+float index_of_refraction(float x) { return x > 0 ? std::clamp(x, 1e-2F, 1e2F) : 1.0F; }
+float largest(const Color3f& c) { return std::max(c.x, std::max(c.y, c.z)); }
+
+ConductorIndex relative_to(const ConductorIndex& index, float outside) {
+  ConductorIndex result;
+  for (int c = 0; c < 3; ++c) {
+    result.eta[c] = std::max(1e-3F, std::min(1e3F, index.eta[c] / outside));
+    result.k[c] = std::max(0.0F, std::min(1e3F, index.k[c] / outside));
+  }
+  return result;
+}
+
+float reflect_probability(const Color3f& reflected, const Color3f& through) {
+  const float r = largest(reflected), t = largest(through);
+  return t > 0 ? r / (r + t) : 1.0F;
+}
+
+/// A thin pane: light that goes to and fro between its two faces added up, R + (1-R)^2 R + ...
+float both_faces(float reflectance) { return 2 * reflectance / (1 + reflectance); }
+
+}  // namespace
+
+struct Bsdf::View {
+  Vector3f o;      ///< out in the surface's own space, turned upside down where needed so that o.z > 0
+  bool is_below;   ///< it was
+  bool is_inside;  ///< in solid glass, where there is no coat
+  const GlassSide* side;
+  const GlassSide* other_side;
+  FacetShares smooth;  ///< of smooth facets
+  float coat_passes, layer_passes, mirror_loss, glass_loss;
+  // How often each lobe is chosen; their sum is 1. `back` and `through` are the matt ones.
+  float p_mirror, p_passing, p_coat, p_facet, p_back, p_through;
+};
+
+// --- the closure
+// ----------------------------------------------------------------------------------------------
+
+// Members that a matt surface does not need are left alone for it: most surfaces are.
+Bsdf::Bsdf(const Material& material, const BsdfFrame& frame)
+    : color_(share(material.color)),
+      is_black_(material.is_area_light),
+      is_matt_(!(material.shininess > 0) && !material.has_layer && !(material.metallic > 0) &&
+               !(material.transmission > 0) && !(material.coat > 0)),
+      is_delta_(is_black_),
+      geometric_normal_(frame.geometric_normal),
+      normal_(frame.normal) {
+  if (is_black_ || is_matt_) return;
+  const float outside = index_of_refraction(frame.ior_outside);
+  set_up_shares(material);
+  set_up_roughness(material);
+  set_up_sides(frame, index_of_refraction(material.ior) / outside);
+  set_up_frame(frame);
+  set_up_layers(material, outside);
+  set_up_metal(material, outside);
+  if (glass_ > 0 && alpha_x_ > 0 && has_compensation_) set_up_glass();
+  const bool has_facets = metal_ > 0 || glass_ > 0 || (opaque_ > 0 && specular_ > 0);
+  is_delta_ = opaque_ <= 0 && (!has_facets || alpha_x_ <= 0) && (coat_ <= 0 || coat_alpha_ <= 0);
+}
+
+void Bsdf::set_up_shares(const Material& material) {
+  mirror_ = share(material.shininess);
+  const float rest = 1 - mirror_, metallic = share(material.metallic);
+  const float transmission = share(material.transmission);
+  metal_ = rest * metallic;
+  glass_ = rest * (1 - metallic) * transmission;
+  opaque_ = rest * (1 - metallic) * (1 - transmission);
+  passing_ = 0;
+  coat_ = share(material.coat);
+  coat_share_ = rest * coat_;
+  is_thin_ = material.thin;
+  has_compensation_ = material.energy_compensation;
+}
+
+// glTF's KHR_materials_anisotropy: alpha along one axis is drawn towards 1 by the strength squared.
+void Bsdf::set_up_roughness(const Material& material) {
+  const float roughness = share(material.roughness), alpha = roughness * roughness;
+  const float strength = std::min(1.0F, std::abs(material.anisotropy));
+  const float stretched = strength > 0 ? alpha + (1 - alpha) * strength * strength : alpha;
+  const bool is_smooth = !(stretched >= kLeastAlpha);
+  const float wide = is_smooth ? 0.0F : stretched, narrow = is_smooth ? 0.0F : std::max(kLeastAlpha, alpha);
+  alpha_x_ = material.anisotropy < 0 ? narrow : wide;
+  alpha_y_ = material.anisotropy < 0 ? wide : narrow;
+  const float coat_roughness = share(material.coat_roughness);
+  coat_alpha_ = coat_roughness * coat_roughness;
+  if (coat_alpha_ < kLeastAlpha) coat_alpha_ = 0;
+}
+
+// Between equal indices there is nothing to see; where they are nearly equal, facets hardly spread the light.
+void Bsdf::set_up_sides(const BsdfFrame& frame, float layer_eta) {
+  const float solid_eta = index_of_refraction(frame.ior_inside) / index_of_refraction(frame.ior_outside);
+  sides_[0] = {};
+  sides_[0].eta = is_thin_ ? layer_eta : solid_eta;
+  sides_[1] = {};
+  sides_[1].eta = 1 / sides_[0].eta;
+  if (glass_ <= 0 || is_thin_) return;
+  const float difference = std::abs(solid_eta - 1);
+  if (difference < 1e-6F) {
+    passing_ = glass_;
+    glass_ = 0;
+  } else if (std::max(alpha_x_, alpha_y_) * difference < kLeastSpread) {
+    alpha_x_ = alpha_y_ = 0;
+  }
+}
+
+void Bsdf::set_up_frame(const BsdfFrame& frame) {
+  is_isotropic_ = alpha_x_ == alpha_y_;
+  if (!is_isotropic_) {
+    const Vector3f along = frame.tangent - glm::dot(frame.tangent, normal_) * normal_;
+    const float length = glm::length(along);
+    if (length > 1e-6F && length < kInfinity) {
+      tangent_ = along / length;
+      bitangent_ = glm::cross(normal_, tangent_);
+      return;
+    }
+  }
+  complete_frame(normal_, tangent_, bitangent_);
+}
+
+// The layer stands on an opaque base only where the material says so; of a boundary only how far the indices
+// are apart counts, so that no opaque base ever hides behind total reflection.
+void Bsdf::set_up_layers(const Material& material, float outside) {
+  cell_x_ = ReflectionTable::Grid::cell_of(alpha_x_);
+  cell_y_ = is_isotropic_ ? cell_x_ : ReflectionTable::Grid::cell_of(alpha_y_);
+  const float eta = index_of_refraction(material.ior) / outside;
+  layer_eta_ = std::max(eta, 1 / eta);
+  specular_ = share(material.specular);
+  // Glass has its reflection even where no layer was spoken of.
+  if (!material.has_layer && !(material.transmission > 0)) specular_ = 0;
+  if (layer_eta_ < 1.0005F) layer_eta_ = 1;
+  layer_mean_passes_ = 1;
+  if (opaque_ > 0 && specular_ > 0 && layer_eta_ > 1) {
+    layer_eta_cell_ = ReflectionTable::eta_cell(layer_eta_);
+    const ReflectionTable& table = ReflectionTable::get();
+    // Along two roughnesses the greater reflection is assumed (see layer_passes), so the smaller mean is
+    // safe.
+    layer_mean_passes_ = 1 - specular_ * std::max(table.boundary_mean(cell_x_, layer_eta_cell_),
+                                                  table.boundary_mean(cell_y_, layer_eta_cell_));
+  }
+  if (coat_ <= 0) return;
+  const float coat_eta = kCoatIor / outside;
+  coat_eta_ = std::max(coat_eta, 1 / coat_eta);
+  coat_cell_ = ReflectionTable::Grid::cell_of(coat_alpha_);
+  coat_eta_cell_ = ReflectionTable::eta_cell(coat_eta_);
+}
+
+// Light between facets, Kulla and Conty 2017: what facets hold back, 1 - E, comes back from a matt lobe
+// (1 - E(o)) (1 - E(i)) / (pi (1 - mean E)); each reflection on the way takes Fresnel's mean, so that after
+// all F^2 E / (1 - F (1 - E)) of it is left (with means; the first of the two F is that of the light that
+// was held back, the second that of the last reflection).
+void Bsdf::set_up_metal(const Material& material, float outside) {
+  mirror_mean_loss_ = 0;
+  const bool is_rough = alpha_x_ > 0;
+  if (is_rough && has_compensation_ && (metal_ > 0 || (glass_ > 0 && is_thin_))) {
+    const ReflectionTable& table = ReflectionTable::get();
+    mirror_mean_loss_ = 1 - std::max(table.mirror_mean(cell_x_), table.mirror_mean(cell_y_));
+    if (mirror_mean_loss_ < kLeastLoss) mirror_mean_loss_ = 0;
+  }
+  if (metal_ <= 0) return;
+  is_measured_ = material.conductor.has_value();
+  if (is_measured_) {
+    conductor_ = relative_to(*material.conductor, outside);
+    metal_mean_ = color_ * fresnel_conductor_mean(conductor_);
+  } else {
+    metal_f0_ = color_;
+    metal_mean_ = fresnel_schlick_mean(metal_f0_);
+  }
+  const float mean = 1 - mirror_mean_loss_;
+  metal_multiple_ = metal_mean_ * metal_mean_ * mean / (Color3f(1) - metal_mean_ * mirror_mean_loss_);
+}
+
+// The same for glass: what facets hold back leaves on both sides. The share x (1 - F) that goes through, with
+// F the mean reflectance from this side, keeps light reversible where x / (1 - x) is the other side's loss
+// over this side's (Kulla and Conty 2017, their section on dielectrics).
+void Bsdf::set_up_glass() {
+  if (is_thin_) {
+    const float eta = std::max(sides_[0].eta, sides_[1].eta);
+    sides_[0].mean_loss = mirror_mean_loss_;
+    sides_[0].back = both_faces(specular_ * fresnel_dielectric_mean(eta));
+    sides_[0].through = 1 - sides_[0].back;
+    return;
+  }
+  const GlassTable& table = GlassTable::get();
+  glass_cell_x_ = GlassTable::Grid::cell_of(alpha_x_);
+  glass_cell_y_ = is_isotropic_ ? glass_cell_x_ : GlassTable::Grid::cell_of(alpha_y_);
+  for (GlassSide& side : sides_) {
+    side.eta_cell = GlassTable::eta_cell(side.eta);
+    side.mean_loss = 1 - std::max(table.mean(glass_cell_x_, side.eta_cell, specular_),
+                                  table.mean(glass_cell_y_, side.eta_cell, specular_));
+  }
+  const float sum = sides_[0].mean_loss + sides_[1].mean_loss;
+  if (sides_[0].mean_loss < kLeastLoss || sides_[1].mean_loss < kLeastLoss) {
+    sides_[0].mean_loss = sides_[1].mean_loss = 0;
+    return;
+  }
+  for (int k = 0; k < 2; ++k) {
+    const float share_through = sides_[1 - k].mean_loss / sum;
+    sides_[k].through = share_through * (1 - fresnel_dielectric_mean(sides_[k].eta));
+    sides_[k].back = 1 - sides_[k].through;
+  }
+}
+
+// --- parts of values
+// ------------------------------------------------------------------------------------------
+
+Color3f Bsdf::metal_fresnel(float cosine) const {
+  return is_measured_ ? color_ * fresnel_conductor(conductor_, cosine) : fresnel_schlick(metal_f0_, cosine);
+}
+
+Bsdf::FacetShares Bsdf::facet_shares(const View& view, float cosine) const {
+  FacetShares shares;
+  if (metal_ > 0) shares.reflected = metal_ * metal_fresnel(cosine);
+  if (opaque_ > 0 && specular_ > 0) {
+    shares.reflected += Color3f(opaque_ * specular_ * fresnel_dielectric(cosine, layer_eta_).reflectance);
+  }
+  if (glass_ > 0) {
+    const Boundary boundary = fresnel_dielectric(cosine, view.side->eta);
+    float reflectance = boundary.is_total ? 1.0F : specular_ * boundary.reflectance;
+    if (is_thin_) reflectance = both_faces(reflectance);
+    shares.reflected += Color3f(glass_ * reflectance);
+    shares.through = glass_ * (1 - reflectance) * color_;
+  }
+  return shares;
+}
+
+// Along two roughnesses the smaller loss is assumed: never too much is made up for.
+float Bsdf::mirror_loss(float cosine) const {
+  const ReflectionTable& table = ReflectionTable::get();
+  const float albedo = table.mirror(cell_x_, cosine);
+  return 1 - (is_isotropic_ ? albedo : std::max(albedo, table.mirror(cell_y_, cosine)));
+}
+
+float Bsdf::glass_loss(const GlassSide& side, float cosine) const {
+  if (is_thin_) return mirror_loss(cosine);
+  const GlassTable& table = GlassTable::get();
+  const float albedo = table.albedo(glass_cell_x_, side.eta_cell, specular_, cosine);
+  if (is_isotropic_) return 1 - albedo;
+  return 1 - std::max(albedo, table.albedo(glass_cell_y_, side.eta_cell, specular_, cosine));
+}
+
+float Bsdf::layer_passes(float cosine) const {
+  if (specular_ <= 0 || layer_eta_ <= 1) return 1;
+  if (alpha_x_ <= 0) return 1 - specular_ * fresnel_dielectric(cosine, layer_eta_).reflectance;
+  const ReflectionTable& table = ReflectionTable::get();
+  float reflected = table.boundary(cell_x_, layer_eta_cell_, layer_eta_, cosine);
+  if (!is_isotropic_) {
+    reflected = std::max(reflected, table.boundary(cell_y_, layer_eta_cell_, layer_eta_, cosine));
+  }
+  return 1 - specular_ * reflected;
+}
+
+float Bsdf::coat_passes(float cosine, bool is_inside) const {
+  if (coat_ <= 0 || is_inside) return 1;
+  if (coat_alpha_ <= 0) return 1 - coat_ * fresnel_dielectric(cosine, coat_eta_).reflectance;
+  return 1 - coat_ * ReflectionTable::get().boundary(coat_cell_, coat_eta_cell_, coat_eta_, cosine);
+}
+
+// The base under its layer: what goes in at o and comes out at i, and what the layer throws back from below
+// goes round until it is out, hence the mean. With a white base nothing is lost, reversed it is the same
+// (Ashikhmin, Premoze and Shirley 2000, "A Microfacet-based BRDF Generator", equation 15, with the layer's
+// true albedo).
+Color3f Bsdf::matt_reflection(const View& view, float cosine) const {
+  Color3f result{0};
+  if (opaque_ > 0) {
+    result = color_ * (opaque_ * view.layer_passes * layer_passes(cosine) / layer_mean_passes_);
+  }
+  if (metal_ > 0 && mirror_mean_loss_ > 0) {
+    result += metal_multiple_ * (metal_ * view.mirror_loss * mirror_loss(cosine) / mirror_mean_loss_);
+  }
+  if (glass_ > 0 && view.side->mean_loss > 0) {
+    result += Color3f(glass_ * view.side->back * view.glass_loss * glass_loss(*view.side, cosine) /
+                      view.side->mean_loss);
+  }
+  return result;
+}
+
+Color3f Bsdf::matt_transmission(const View& view, float cosine) const {
+  const float squeezed = is_thin_ ? 1.0F : view.side->eta * view.side->eta;
+  return color_ * (glass_ * view.side->through * view.glass_loss * glass_loss(*view.other_side, cosine) /
+                   (view.other_side->mean_loss * squeezed));
+}
+
+// --- what out sees
+// --------------------------------------------------------------------------------------------
+
+bool Bsdf::look(const Vector3f& out, View& view) const {
+  const float cosine = glm::dot(normal_, out), geometric = glm::dot(geometric_normal_, out);
+  if (!((cosine > 0 && geometric > 0) || (cosine < 0 && geometric < 0))) return false;
+  view.is_below = cosine < 0;
+  view.o = {glm::dot(tangent_, out), glm::dot(bitangent_, out), std::min(1.0F, std::abs(cosine))};
+  const bool is_solid = !is_thin_ && (glass_ > 0 || passing_ > 0);
+  view.is_inside = view.is_below && is_solid;
+  view.side = &sides_[view.is_below && !is_thin_ ? 1 : 0];
+  view.other_side = &sides_[view.is_below || is_thin_ ? 0 : 1];
+  view.coat_passes = coat_passes(view.o.z, view.is_inside);
+  view.layer_passes = opaque_ > 0 ? layer_passes(view.o.z) : 1.0F;
+  view.mirror_loss = mirror_mean_loss_ > 0 ? mirror_loss(view.o.z) : 0.0F;
+  view.glass_loss = glass_ > 0 && view.side->mean_loss > 0 ? glass_loss(*view.side, view.o.z) : 0.0F;
+  choose_lobes(view);
+  return true;
+}
+
+// Each as often as it has a share of the light, by its largest channel: a luminance would leave blue to
+// chance.
+void Bsdf::choose_lobes(View& view) const {
+  const float brightest = largest(color_);
+  view.p_mirror = mirror_ * brightest;
+  view.p_coat = coat_ > 0 ? (coat_share_ / coat_) * (1 - view.coat_passes) : 0.0F;
+  const float below = view.coat_passes;
+  view.p_passing = passing_ * brightest * below;
+  if (alpha_x_ <= 0) {
+    view.smooth = facet_shares(view, view.o.z);
+    view.p_facet = below * (largest(view.smooth.reflected) + largest(view.smooth.through));
+  } else {
+    const float metal = metal_ > 0 ? metal_ * largest(metal_mean_) * (1 - view.mirror_loss) : 0.0F;
+    view.p_facet = below * (metal + opaque_ * (1 - view.layer_passes) + glass_);
+  }
+  float back = opaque_ * brightest * view.layer_passes + glass_ * view.side->back * view.glass_loss;
+  if (metal_ > 0) back += metal_ * largest(metal_multiple_) * view.mirror_loss;
+  view.p_back = below * back;
+  view.p_through = below * glass_ * view.side->through * view.glass_loss * brightest;
+  const float sum =
+      view.p_mirror + view.p_passing + view.p_coat + view.p_facet + view.p_back + view.p_through;
+  const float scale = sum > 0 ? 1 / sum : 0.0F;
+  for (float* p :
+       {&view.p_mirror, &view.p_passing, &view.p_coat, &view.p_facet, &view.p_back, &view.p_through}) {
+    *p *= scale;
+  }
+}
+
+// --- values and densities
+// -------------------------------------------------------------------------------------
+
+void Bsdf::add_coat(const View& view, const Vector3f& i, Scattered& result) const {
+  const Ggx ggx(coat_alpha_, coat_alpha_);
+  const Vector3f h = glm::normalize(view.o + i);
+  const float density = ggx.density(h);
+  const float fresnel =
+      fresnel_dielectric(std::clamp(glm::dot(view.o, h), 0.0F, 1.0F), coat_eta_).reflectance;
+  result.value += Color3f(coat_share_ * fresnel * density * ggx.joint_visibility(view.o, i) * i.z);
+  result.pdf += view.p_coat * ggx.bounded_reflection_pdf(view.o, density);
+}
+
+void Bsdf::add_facet_reflection(const View& view, const Vector3f& i, Scattered& result) const {
+  const Ggx ggx(alpha_x_, alpha_y_);
+  const Vector3f h = glm::normalize(view.o + i);
+  const float c = std::clamp(glm::dot(view.o, h), 0.0F, 1.0F);
+  const float density = ggx.density(h);
+  const FacetShares shares = facet_shares(view, c);
+  result.value += shares.reflected * (density * ggx.joint_visibility(view.o, i) * i.z);
+  // The density of visible normals over 4 c, which stays finite where c is 0.
+  const float pdf = glass_ > 0 ? reflect_probability(shares.reflected, shares.through) * density /
+                                     (2 * (view.o.z + ggx.stretch(view.o)))
+                               : ggx.bounded_reflection_pdf(view.o, density);
+  result.pdf += view.p_facet * pdf;
+}
+
+// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equations 16, 17 and 21,
+// with indices relative to that on o's side, and light squeezed. Through a thin pane the reflection goes on
+// as its mirror image.
+void Bsdf::add_facet_transmission(const View& view, const Vector3f& i, Scattered& result) const {
+  const Ggx ggx(alpha_x_, alpha_y_);
+  if (is_thin_) {
+    const Vector3f mirrored(i.x, i.y, -i.z);
+    const Vector3f h = glm::normalize(view.o + mirrored);
+    const float density = ggx.density(h);
+    const FacetShares shares = facet_shares(view, std::clamp(glm::dot(view.o, h), 0.0F, 1.0F));
+    result.value += shares.through * (density * ggx.joint_visibility(view.o, mirrored) * mirrored.z);
+    result.pdf += view.p_facet * (1 - reflect_probability(shares.reflected, shares.through)) * density /
+                  (2 * (view.o.z + ggx.stretch(view.o)));
+    return;
+  }
+  const float eta = view.side->eta;
+  Vector3f h = view.o + eta * i;
+  const float length = glm::length(h);
+  if (!(length > 0)) return;
+  h /= h.z < 0 ? -length : length;
+  const float c = glm::dot(view.o, h), through = -glm::dot(i, h);
+  if (!(c > 0 && through > 0)) return;
+  const float density = ggx.density(h);
+  const FacetShares shares = facet_shares(view, std::min(1.0F, c));
+  const float jacobian = through / (length * length);  // times eta^2
+  result.value += shares.through * (ggx.visible(view.o) * ggx.visible(i) * density * c * jacobian / view.o.z);
+  result.pdf += view.p_facet * (1 - reflect_probability(shares.reflected, shares.through)) *
+                ggx.visible_pdf(view.o, h, density) * jacobian * eta * eta;
+}
+
+// What lies below the coat gets the lesser of what the coat lets through on both ways: as good as the way in
+// alone for what is mirrored, reversible, and never more than came in.
+Bsdf::Scattered Bsdf::scatter(const View& view, const Vector3f& i) const {
+  Scattered result;
+  const bool is_reflection = i.z > 0;
+  const float cosine = std::min(1.0F, std::abs(i.z));
+  if (is_reflection) {
+    if (view.p_back > 0) {
+      result = {matt_reflection(view, cosine) * cosine_pdf(cosine), view.p_back * cosine_pdf(cosine)};
+    }
+    if (alpha_x_ > 0 && view.p_facet > 0) add_facet_reflection(view, i, result);
+  } else {
+    if (view.p_through > 0) {
+      result = {matt_transmission(view, cosine) * cosine_pdf(cosine), view.p_through * cosine_pdf(cosine)};
+    }
+    if (alpha_x_ > 0 && glass_ > 0) add_facet_transmission(view, i, result);
+  }
+  if (coat_ > 0) {
+    const bool is_i_inside = !is_thin_ && (glass_ > 0 || passing_ > 0) && view.is_below == is_reflection;
+    result.value *= std::min(view.coat_passes, coat_passes(cosine, is_i_inside));
+    if (is_reflection && coat_alpha_ > 0 && view.p_coat > 0) add_coat(view, i, result);
+  }
+  return result;
+}
+
+Bsdf::Scattered Bsdf::scatter(const Vector3f& out, const Vector3f& in) const {
+  if (is_delta_) return {};
+  const float cosine = glm::dot(normal_, in), geometric = glm::dot(geometric_normal_, in);
+  if (!((cosine > 0 && geometric > 0) || (cosine < 0 && geometric < 0))) return {};
+  if (is_matt_) {
+    const bool is_above = glm::dot(normal_, out) > 0;
+    if (is_above != (cosine > 0) || is_above != (glm::dot(geometric_normal_, out) > 0)) return {};
+    const float pdf = cosine_pdf(std::abs(cosine));
+    return {color_ * pdf, pdf};
+  }
+  View view;
+  if (!look(out, view)) return {};
+  return scatter(view, {glm::dot(tangent_, in), glm::dot(bitangent_, in), view.is_below ? -cosine : cosine});
+}
+
+Color3f Bsdf::evaluate(const Vector3f& out, const Vector3f& in) const { return scatter(out, in).value; }
+
+float Bsdf::pdf(const Vector3f& out, const Vector3f& in) const { return scatter(out, in).pdf; }
+
+Color3f Bsdf::evaluate(const Vector3f& out, const Vector3f& in, float& pdf) const {
+  const Scattered scattered = scatter(out, in);
+  pdf = scattered.pdf;
+  return scattered.value;
+}
+
+// --- sampling
+// -------------------------------------------------------------------------------------------------
+
+bool Bsdf::sample(const Vector3f& out, float u_lobe, const Vector2f& u, BsdfSample& sample) const {
+  if (is_black_) return false;
+  if (is_matt_) return sample_matt(out, u, sample);
+  View view;
+  if (!look(out, view)) return false;
+  const Vector3f& o = view.o;
+  const Vector3f mirrored = to_world(view, {-o.x, -o.y, o.z});
+  if (u_lobe < view.p_mirror) return finish_delta(sample, mirrored, mirror_ * color_, view.p_mirror, false);
+  u_lobe -= view.p_mirror;
+  if (u_lobe < view.p_passing) {
+    return finish_delta(sample, -out, passing_ * view.coat_passes * color_, view.p_passing, true);
+  }
+  u_lobe -= view.p_passing;
+  Vector3f i;
+  if (u_lobe < view.p_coat) {
+    if (coat_alpha_ <= 0) {
+      const Color3f share((coat_share_ / coat_) * (1 - view.coat_passes));
+      return finish_delta(sample, mirrored, share, view.p_coat, false);
+    }
+    const Vector3f h = Ggx(coat_alpha_, coat_alpha_).sample_bounded(o, u);
+    i = 2 * glm::dot(o, h) * h - o;
+    if (!(i.z > 0)) return false;
+  } else if ((u_lobe -= view.p_coat) < view.p_facet) {
+    const float rest = std::min(u_lobe / view.p_facet, 1.0F);
+    if (alpha_x_ <= 0) return sample_smooth_facet(view, rest, out, sample);
+    if (!sample_rough_facet(view, rest, u, i)) return false;
+  } else {
+    i = sample_cosine(u);
+    // What rounding leaves over is the last lobe's that there is.
+    if (u_lobe - view.p_facet >= view.p_back ? view.p_through > 0 : !(view.p_back > 0)) i.z = -i.z;
+  }
+  i = glm::normalize(i);
+  const Scattered scattered = scatter(view, i);
+  if (!(scattered.pdf > 0 && scattered.pdf < kInfinity)) return false;
+  sample.direction = to_world(view, i);
+  const float cosine = glm::dot(normal_, sample.direction);
+  const float geometric = glm::dot(geometric_normal_, sample.direction);
+  if (!((cosine > 0 && geometric > 0) || (cosine < 0 && geometric < 0))) return false;
+  sample.weight = scattered.value / scattered.pdf;
+  sample.pdf = scattered.pdf;
+  sample.is_delta = false;
+  sample.is_transmission = i.z < 0;
+  return true;
+}
+
+bool Bsdf::sample_matt(const Vector3f& out, const Vector2f& u, BsdfSample& sample) const {
+  const bool is_above = glm::dot(normal_, out) > 0;
+  if (is_above != (glm::dot(geometric_normal_, out) > 0)) return false;
+  Vector3f tangent, bitangent;
+  complete_frame(normal_, tangent, bitangent);
+  const Vector3f i = sample_cosine(u);
+  const Vector3f direction = i.x * tangent + i.y * bitangent + (is_above ? i.z : -i.z) * normal_;
+  const float geometric = glm::dot(geometric_normal_, direction);
+  if (!(i.z > 0) || !(is_above ? geometric > 0 : geometric < 0)) return false;
+  sample = {direction, color_, i.z * kInversePi, false, false};
+  return true;
+}
+
+bool Bsdf::sample_smooth_facet(const View& view, float u_lobe, const Vector3f& out,
+                               BsdfSample& sample) const {
+  const float p_reflect = reflect_probability(view.smooth.reflected, view.smooth.through);
+  const Vector3f& o = view.o;
+  if (u_lobe < p_reflect) {
+    return finish_delta(sample, to_world(view, {-o.x, -o.y, o.z}), view.coat_passes * view.smooth.reflected,
+                        view.p_facet * p_reflect, false);
+  }
+  const float p_through = view.p_facet * (1 - p_reflect);
+  if (is_thin_) return finish_delta(sample, -out, view.coat_passes * view.smooth.through, p_through, true);
+  const float eta = view.side->eta, through = fresnel_dielectric(o.z, eta).cosine_through;
+  // The coat counts on its own side, where light is in the end or was in the beginning.
+  const float passes = view.is_inside ? coat_passes(through, false) : view.coat_passes;
+  return finish_delta(sample, to_world(view, glm::normalize(Vector3f(-o.x / eta, -o.y / eta, -through))),
+                      passes * view.smooth.through / (eta * eta), p_through, true);
+}
+
+bool Bsdf::sample_rough_facet(const View& view, float u_lobe, const Vector2f& u, Vector3f& i) const {
+  const Ggx ggx(alpha_x_, alpha_y_);
+  const Vector3f h = glass_ > 0 ? ggx.sample_visible(view.o, u) : ggx.sample_bounded(view.o, u);
+  const float c = glm::dot(view.o, h);
+  if (!(c > 0)) return false;
+  i = 2 * c * h - view.o;
+  if (glass_ <= 0) return i.z > 0;
+  const FacetShares shares = facet_shares(view, std::min(1.0F, c));
+  if (u_lobe < reflect_probability(shares.reflected, shares.through)) return i.z > 0;
+  if (is_thin_) {
+    i.z = -i.z;
+    return i.z < 0;
+  }
+  const float eta = view.side->eta;
+  const float through = fresnel_dielectric(std::min(1.0F, c), eta).cosine_through;
+  i = (c / eta - through) * h - view.o / eta;
+  return i.z < 0;
+}
+
+bool Bsdf::finish_delta(BsdfSample& sample, const Vector3f& direction, const Color3f& share,
+                        float probability, bool is_transmission) const {
+  const float cosine = glm::dot(normal_, direction), geometric = glm::dot(geometric_normal_, direction);
+  if (!((cosine > 0 && geometric > 0) || (cosine < 0 && geometric < 0))) return false;
+  if (!(probability > 0)) return false;
+  sample = {direction, share / probability, probability, true, is_transmission};
+  return true;
+}
+
+Vector3f Bsdf::to_world(const View& view, const Vector3f& local) const {
+  return local.x * tangent_ + local.y * bitangent_ + (view.is_below ? -local.z : local.z) * normal_;
+}
+
+}  // namespace raytracer

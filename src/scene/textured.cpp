@@ -1,0 +1,65 @@
+// A surface with what its textures say of it.
+#include <cmath>
+
+#include "raytracer/scene.hpp"
+#include "textures/material_at.hpp"
+
+namespace raytracer {
+namespace {
+
+// The change of uv that moves the point by `way` along the surface: the least squares solution.
+Vector2f uv_along(const SurfaceDetail& detail, const Vector3f& way) {
+  const float uu = glm::dot(detail.along_u, detail.along_u), uv = glm::dot(detail.along_u, detail.along_v),
+              vv = glm::dot(detail.along_v, detail.along_v);
+  const float determinant = uu * vv - uv * uv;
+  if (!(determinant > 0)) return Vector2f(0);
+  const float u = glm::dot(detail.along_u, way), v = glm::dot(detail.along_v, way);
+  return {(vv * u - uv * v) / determinant, (uu * v - uv * u) / determinant};
+}
+
+// Where a cone of this width around the ray cuts the surface: an ellipse that is the longer the more the
+// surface is seen from the side.
+TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const SurfaceDetail& detail,
+                           float width) {
+  TexturePoint point;
+  point.uv = detail.uv;
+  point.position = surface.position;
+  point.normal = surface.shading_normal;
+  if (!(width > 0)) return point;
+  const Vector3f direction = glm::normalize(ray.direction);
+  const Vector3f across = glm::cross(direction, surface.normal);
+  const float sine = glm::length(across);
+  constexpr float kLeastCosine = 1e-3F;
+  const float cosine = std::max(std::abs(glm::dot(direction, surface.normal)), kLeastCosine);
+  const Vector3f side =
+      sine > 1e-4F ? across / sine
+                   : glm::normalize(std::abs(direction.x) > 0.5F ? glm::cross(direction, Vector3f(0, 1, 0))
+                                                                 : glm::cross(direction, Vector3f(1, 0, 0)));
+  point.position_dx = width * side;
+  point.position_dy = width / cosine * glm::cross(surface.normal, side);
+  point.uv_dx = uv_along(detail, point.position_dx);
+  point.uv_dy = uv_along(detail, point.position_dy);
+  return point;
+}
+
+}  // namespace
+
+Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface) const {
+  const Material& material = material_of(hit);
+  const SurfaceDetail detail = detail_at(ray, hit);
+  const TexturePoint point = texture_point(ray, surface, detail, width);
+  if (material.textures != nullptr) {
+    surface.shading_normal = perturbed_normal(material, detail, point, surface.shading_normal);
+  }
+  Material here = material_at(material, point);
+  if (here.takes_vertex_colors) here.color *= detail.color;
+  return here;
+}
+
+float Scene::alpha_at(const Ray3f& ray, const Hit& hit) const {
+  const Material& material = material_of(hit);
+  if (material.textures == nullptr || material.textures->alpha == nullptr) return material.alpha;
+  return raytracer::alpha_at(material, texture_point(ray, surface_at(ray, hit), detail_at(ray, hit), 0));
+}
+
+}  // namespace raytracer

@@ -1,0 +1,36 @@
+// From the words of an MTL file to a material.
+#include <cmath>
+
+#include "scene_file/mesh_store.hpp"
+
+namespace raytracer::scene_file {
+namespace {
+
+// The roughness of a Phong lobe of that exponent: B. Walter et al., "Microfacet Models for Refraction through
+// Rough Surfaces", EGSR 2007, section 5.2: alpha = sqrt(2 / (n + 2)), and alpha is the square of the
+// roughness.
+float roughness_of_exponent(float exponent) { return std::pow(2 / (exponent + 2), 0.25f); }
+
+bool is_black(const Color3f& color) { return color == Color3f(0); }
+
+}  // namespace
+
+Material material_from_mtl(const MeshData::NamedMaterial& said) {
+  Material material;
+  material.color = said.color;
+  material.emission = said.emission;
+  material.alpha = said.alpha;
+  material.metallic = said.metallic;
+  material.ior = said.ior > 1 ? said.ior : 1.5f;
+  // Without a highlight the surface is a plain Lambert one.
+  material.has_layer = said.roughness >= 0 || said.metallic > 0 || !is_black(said.specular);
+  if (said.roughness >= 0) {
+    material.roughness = said.roughness;
+  } else if (material.has_layer) {
+    material.roughness = roughness_of_exponent(std::max(0.0f, said.exponent));
+  }
+  // Here is the place for said.color_map and its kin.
+  return material;
+}
+
+}  // namespace raytracer::scene_file

@@ -1,0 +1,141 @@
+#include "textures/image_texture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/numeric.hpp"
+
+namespace raytracer {
+namespace {
+
+/// What a footprint averages over: probes along a line, each of them round.
+struct Probes {
+  int level = 0;         // of the pyramid
+  float next_share = 0;  // how much of the next level is mixed in
+  int count = 1;
+  Vector2f half_line{0};  // from the middle to the line's end, in texels of level 0
+};
+
+constexpr int kMostProbes = 64;
+
+/// A look at level l, being bilinear between averages of 4^l texels, blurs what level 0 shows by a variance
+/// of (4^l - 1) / 4 texels: (4^l - 1) / 12 of the averages and (4^l - 1) / 6 of the slopes between them. The
+/// level, and the share of the next, that blur by `variance`.
+void choose_level(float variance, int level_count, Probes& probes) {
+  const float scale = 1 + 4 * variance;  // 4^l
+  const int level = std::ilogb(scale) / 2;
+  if (level >= level_count - 1) {
+    probes.level = level_count - 1;
+    return;
+  }
+  const float size = std::ldexp(1.0f, 2 * level);
+  probes.level = level;
+  probes.next_share = (scale - size) / (3 * size);
+}
+
+/// The ellipse that has the second moments of the parallelogram between `dx` and `dy`, in texels.
+struct Ellipse {
+  float long_variance = 0, short_variance = 0;
+  Vector2f axis{1, 0};  // unit length, the long one
+};
+
+Ellipse ellipse_of(const Vector2f& dx, const Vector2f& dy) {
+  // A side of length d, evenly covered, has the variance d^2 / 12.
+  const float xx = (dx.x * dx.x + dy.x * dy.x) / 12, yy = (dx.y * dx.y + dy.y * dy.y) / 12;
+  const float xy = (dx.x * dx.y + dy.x * dy.y) / 12;
+  const float mean = 0.5f * (xx + yy), half = 0.5f * (xx - yy);
+  const float radius = std::sqrt(half * half + xy * xy);
+  Ellipse ellipse{mean + radius, std::max(mean - radius, 0.0f)};
+  const Vector2f axis = half > 0 ? Vector2f(half + radius, xy) : Vector2f(xy, radius - half);
+  const float length = glm::length(axis);
+  if (length > 0) ellipse.axis = axis / length;
+  return ellipse;
+}
+
+Probes probes_for(const Ellipse& ellipse, int level_count) {
+  Probes probes;
+  float round = ellipse.short_variance;
+  // Half of a line, evenly covered, that has the variance which the round probes lack.
+  const auto half_length = [&] { return std::sqrt(3 * std::max(ellipse.long_variance - round, 0.0f)); };
+  const auto spacing = [&] { return std::sqrt(1 + 4 * round); };  // a texel of the level
+  float length = half_length();
+  if (2 * length > kMostProbes * spacing()) {
+    const float wider = 2 * length / kMostProbes;
+    round = (wider * wider - 1) / 4;
+    length = half_length();
+  }
+  choose_level(round, level_count, probes);
+  probes.count = std::clamp(static_cast<int>(std::ceil(2 * length / spacing())), 1, kMostProbes);
+  probes.half_line = length * ellipse.axis;
+  return probes;
+}
+
+class ImageTexture : public Texture {
+ public:
+  ImageTexture(std::shared_ptr<const TexelPyramid> pyramid, const TexturePlacement& placement, bool is_mean)
+      : pyramid_(std::move(pyramid)),
+        offset_(placement.offset),
+        wrap_(placement.wrap),
+        is_mean_(is_mean),
+        size_(pyramid_->width(), pyramid_->height()) {
+    const double angle = placement.rotate * (kPi / 180);
+    // Whole quarter turns shall be exact.
+    const bool is_quarter = std::fmod(placement.rotate, 90) == 0;
+    const auto tidy = [&](double x) { return static_cast<float>(is_quarter ? std::round(x) : x); };
+    const float cosine = tidy(std::cos(angle)), sine = tidy(std::sin(angle));
+    along_u_ = placement.scale * Vector2f(cosine, sine);
+    along_v_ = placement.scale * Vector2f(-sine, cosine);
+  }
+
+  Color3f at(const TexturePoint& point) const override {
+    const Color3f color = average(placed(point.uv) + offset_, placed(point.uv_dx), placed(point.uv_dy));
+    return is_mean_ ? Color3f((color.x + color.y + color.z) / 3) : color;
+  }
+
+ private:
+  Vector2f placed(const Vector2f& uv) const { return uv.x * along_u_ + uv.y * along_v_; }
+
+  Color3f average(const Vector2f& uv, const Vector2f& dx, const Vector2f& dy) const {
+    if (pyramid_->level_count() == 1) return pyramid_->bilinear(0, uv, wrap_);
+    const Ellipse ellipse = ellipse_of(dx * size_, dy * size_);
+    if (ellipse.long_variance == 0) return pyramid_->bilinear(0, uv, wrap_);
+    constexpr float kEndless = 1e15f;  // so far beyond any picture that only the average of all is left
+    if (!(ellipse.short_variance < kEndless && ellipse.long_variance < kEndless * kEndless)) {
+      return pyramid_->bilinear(pyramid_->level_count() - 1, uv, wrap_);
+    }
+    const Probes probes = probes_for(ellipse, pyramid_->level_count());
+    const Vector2f step = probes.half_line / size_ * (2.0f / static_cast<float>(probes.count));
+    Color3f sum(0);
+    for (int i = 0; i < probes.count; ++i) {
+      const float place = static_cast<float>(i) - 0.5f * static_cast<float>(probes.count - 1);
+      sum += look(probes, uv + place * step);
+    }
+    return sum / static_cast<float>(probes.count);
+  }
+
+  Color3f look(const Probes& probes, const Vector2f& uv) const {
+    constexpr float kTooLittle = 1.0f / 64;
+    if (probes.next_share < kTooLittle) return pyramid_->bilinear(probes.level, uv, wrap_);
+    const Color3f next = pyramid_->bilinear(probes.level + 1, uv, wrap_);
+    if (probes.next_share > 1 - kTooLittle) return next;
+    const Color3f color = pyramid_->bilinear(probes.level, uv, wrap_);
+    return color + probes.next_share * (next - color);
+  }
+
+  std::shared_ptr<const TexelPyramid> pyramid_;
+  Vector2f along_u_{1, 0}, along_v_{0, 1}, offset_;
+  TextureWrap wrap_;
+  bool is_mean_;
+  Vector2f size_;
+};
+
+}  // namespace
+
+TexturePointer make_image_texture(std::shared_ptr<const TexelPyramid> pyramid,
+                                  const TexturePlacement& placement) {
+  const bool is_mean = pyramid->is_mean();
+  return std::make_shared<ImageTexture>(std::move(pyramid), placement, is_mean);
+}
+
+}  // namespace raytracer

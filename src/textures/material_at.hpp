@@ -1,0 +1,23 @@
+// A material where a ray has met it.
+#pragma once
+
+#include "raytracer/material.hpp"
+#include "raytracer/shape.hpp"
+#include "raytracer/texture.hpp"
+
+namespace raytracer {
+
+/// The material with what its textures say there in place of its values, in their ranges, and without
+/// textures. The one without textures is returned as it is.
+Material material_at(const Material& material, const TexturePoint& point);
+
+/// How much of the surface is there, 0..1: alpha alone, for rays that ask only for that.
+float alpha_at(const Material& material, const TexturePoint& point);
+
+/// The shading normal after the material's normal map and bump, unit length, on the same side of the surface.
+/// `normal` is the shading normal before. Where the surface has no u and v directions a normal map does
+/// nothing and bump follows the position alone.
+Vector3f perturbed_normal(const Material& material, const SurfaceDetail& detail, const TexturePoint& point,
+                          const Vector3f& normal);
+
+}  // namespace raytracer

@@ -1,0 +1,331 @@
+#include "textures/texel_pyramid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/display_curve.hpp"
+#include "core/parallel.hpp"
+#include "image/texel.hpp"
+
+namespace raytracer {
+namespace {
+
+PictureCurve curve_of(const Picture& picture, const TexelUse& use) {
+  if (use.channel == TextureChannel::kAlpha) return PictureCurve::kLinear;
+  if (use.curve == TextureCurve::kSrgb) return PictureCurve::kSrgb;
+  if (use.curve == TextureCurve::kLinear || use.meaning == TextureMeaning::kNumber) {
+    return PictureCurve::kLinear;
+  }
+  return picture.curve;
+}
+
+bool is_one_number(const Picture& picture, TextureChannel channel) {
+  if (channel == TextureChannel::kAll || channel == TextureChannel::kMean) return picture.channels < 3;
+  return true;
+}
+
+/// Index of the first of the texel's channels that is used.
+int first_channel(const Picture& picture, TextureChannel channel) {
+  const bool is_grey = picture.channels < 3;
+  switch (channel) {
+    case TextureChannel::kGreen:
+      return is_grey ? 0 : 1;
+    case TextureChannel::kBlue:
+      return is_grey ? 0 : 2;
+    case TextureChannel::kAlpha:
+      return picture.channels - 1;
+    default:
+      return 0;
+  }
+}
+
+std::size_t channel_size(const Picture& picture) {
+  return picture.type == TexelType::kRgbe
+             ? 1
+             : picture.texel_bytes() / static_cast<std::size_t>(picture.channels);
+}
+
+constexpr float kShortStep = 1.0f / 65535;
+
+}  // namespace
+
+float TexelPyramid::value_of(float stored) const {
+  const PictureCurve curve = curve_of(*picture_, use_);
+  if (use_.channel == TextureChannel::kAlpha) return stored;
+  if (use_.meaning != TextureMeaning::kDisplay) return light_of(stored, curve, picture_->exponent);
+  if (curve == PictureCurve::kSrgb) return stored;
+  return static_cast<float>(display_from_linear(light_of(stored, curve, picture_->exponent)));
+}
+
+TexelPyramid::TexelPyramid(std::shared_ptr<const Picture> picture, const TexelUse& use)
+    : picture_(std::move(picture)), use_(use), is_number_(is_one_number(*picture_, use.channel)) {
+  if (use.channel == TextureChannel::kAlpha && !picture_->has_alpha()) {
+    make_constant(Color3f(1));
+    return;
+  }
+  make_table();
+  levels_.push_back(base_level());
+  if (is_constant()) {
+    make_constant(bilinear(0, Vector2f(0.5f), TextureWrap::kClamp));
+    return;
+  }
+  if (table_.empty() && value_of(0.5f) != 0.5f) convert_floats();
+  while (levels_.back().width > 1 || levels_.back().height > 1) add_level();
+}
+
+void TexelPyramid::make_table() {
+  const bool is_byte = picture_->type == TexelType::kByte;
+  if (!is_byte && picture_->type != TexelType::kShort) return;
+  table_.resize(is_byte ? 256 : 65536);
+  const auto most = static_cast<float>(table_.size() - 1);
+  for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = value_of(static_cast<float>(i) / most);
+}
+
+TexelPyramid::Level TexelPyramid::base_level() const {
+  static constexpr std::array kFormats = {Format::kTableByte, Format::kTableShort, Format::kHalf,
+                                          Format::kFloat, Format::kRgbe};
+  Level level{picture_->width, picture_->height, kFormats[static_cast<std::size_t>(picture_->type)],
+              picture_->data.get(), picture_->texel_bytes()};
+  const auto first = static_cast<std::size_t>(first_channel(*picture_, use_.channel));
+  for (std::size_t c = 0; c < 3; ++c) {
+    level.offsets[c] = channel_size(*picture_) * (is_number_ ? first : c);
+  }
+  return level;
+}
+
+bool TexelPyramid::is_constant() const {
+  const std::uint8_t* bytes = picture_->data.get();
+  const std::size_t step = picture_->texel_bytes();
+  return std::memcmp(bytes, bytes + step, picture_->bytes() - step) == 0;
+}
+
+void TexelPyramid::make_constant(const Color3f& value) {
+  levels_.clear();
+  owned_bytes_ = sizeof value;
+  owned_.push_back(std::make_unique<std::uint8_t[]>(owned_bytes_));
+  std::memcpy(owned_.back().get(), &value, sizeof value);
+  levels_.push_back({1, 1, Format::kFloat, owned_.back().get(), sizeof value, {0, 4, 8}});
+}
+
+// Floats that are not the values themselves are made so once, not at every look.
+void TexelPyramid::convert_floats() {
+  const Level from = levels_.back();
+  const std::size_t channels = is_number_ ? 1 : 3;
+  const std::size_t row = channels * static_cast<std::size_t>(from.width);
+  owned_.push_back(
+      std::make_unique_for_overwrite<std::uint8_t[]>(row * 4 * static_cast<std::size_t>(from.height)));
+  owned_bytes_ += row * 4 * static_cast<std::size_t>(from.height);
+  std::uint8_t* out = owned_.back().get();
+  parallel_for(static_cast<std::size_t>(from.height), [&](std::size_t y) {
+    std::vector<float> values(row);
+    decode_row(from, static_cast<int>(y), values.data());
+    for (float& value : values) value = value_of(value);
+    std::memcpy(out + 4 * row * y, values.data(), 4 * row);
+  });
+  levels_.back() = {
+      from.width,     from.height,
+      Format::kFloat, out,
+      4 * channels,   is_number_ ? std::array<std::size_t, 3>{} : std::array<std::size_t, 3>{0, 4, 8}};
+}
+
+// --- looking up
+// ----------------------------------------------------------------------------------------------
+
+/// Calls function(decode), decode(texel, c) being channel c of a texel of that level.
+template <class Function>
+auto TexelPyramid::with_decoder(const Level& level, const Function& function) const {
+  const std::array<std::size_t, 3> at = level.offsets;
+  const float* table = table_.data();
+  switch (level.format) {
+    case Format::kTableByte:
+      return function([=](const std::uint8_t* texel, std::size_t c) { return table[texel[at[c]]]; });
+    case Format::kTableShort:
+      return function([=](const std::uint8_t* texel, std::size_t c) {
+        return table[load<std::uint16_t>(texel + at[c])];
+      });
+    case Format::kShort:
+      return function([=](const std::uint8_t* texel, std::size_t c) {
+        return static_cast<float>(load<std::uint16_t>(texel + at[c])) * kShortStep;
+      });
+    case Format::kHalf:
+      return function([=](const std::uint8_t* texel, std::size_t c) {
+        return float_from_half(load<std::uint16_t>(texel + at[c]));
+      });
+    case Format::kRgbe:
+      return function([=](const std::uint8_t* texel, std::size_t c) {
+        return rgb_from_rgbe(texel)[static_cast<int>(at[c])];
+      });
+    case Format::kFloat:
+      break;
+  }
+  return function([=](const std::uint8_t* texel, std::size_t c) { return load<float>(texel + at[c]); });
+}
+
+namespace {
+
+/// To 0..1, where it is the same picture. Whatever is not a number goes to 0.
+float wrapped(float x, TextureWrap wrap) {
+  switch (wrap) {
+    case TextureWrap::kRepeat:
+      x -= std::floor(x);
+      break;
+    case TextureWrap::kMirror:
+      x -= 2 * std::floor(0.5f * x);
+      if (x > 1) x = 2 - x;
+      break;
+    case TextureWrap::kClamp:
+      break;
+  }
+  return x > 0 ? std::min(x, 1.0f) : 0.0f;
+}
+
+/// The two texels of an axis between whose centres x, 0..1, lies.
+struct Pair {
+  int first = 0, second = 0;
+  float weight = 0;  // of the second
+};
+
+Pair pair_at(float x, int count, bool repeats) {
+  const float position = x * static_cast<float>(count) - 0.5f;
+  const float below = std::floor(position);
+  Pair pair{static_cast<int>(below), static_cast<int>(below) + 1, position - below};
+  if (pair.first < 0) pair.first = repeats ? count - 1 : 0;
+  if (pair.second >= count) pair.second = repeats ? 0 : count - 1;
+  return pair;
+}
+
+}  // namespace
+
+TexelPyramid::Cell TexelPyramid::cell_at(const Level& level, const Vector2f& uv, TextureWrap wrap) {
+  const bool repeats = wrap == TextureWrap::kRepeat;
+  const Pair x = pair_at(wrapped(uv.x, wrap), level.width, repeats);
+  const Pair y = pair_at(1 - wrapped(uv.y, wrap), level.height, repeats);
+  const auto at = [&](int column, int row) {
+    return level.data + (static_cast<std::size_t>(row) * static_cast<std::size_t>(level.width) +
+                         static_cast<std::size_t>(column)) *
+                            level.texel_bytes;
+  };
+  return {{at(x.first, y.first), at(x.second, y.first), at(x.first, y.second), at(x.second, y.second)},
+          x.weight,
+          y.weight};
+}
+
+// In the form a + t (b - a), which leaves equal values as they are.
+template <class Decode>
+Color3f TexelPyramid::mix(const Cell& cell, const Decode& decode) const {
+  const auto channel = [&](std::size_t c) {
+    const float upper_left = decode(cell.texels[0], c), lower_left = decode(cell.texels[2], c);
+    const float upper = upper_left + cell.right * (decode(cell.texels[1], c) - upper_left);
+    const float lower = lower_left + cell.right * (decode(cell.texels[3], c) - lower_left);
+    return upper + cell.below * (lower - upper);
+  };
+  if (is_number_) return Color3f(channel(0));
+  return {channel(0), channel(1), channel(2)};
+}
+
+Color3f TexelPyramid::bilinear(int level, const Vector2f& uv, TextureWrap wrap) const {
+  const Level& pixels = levels_[static_cast<std::size_t>(level)];
+  const Cell cell = cell_at(pixels, uv, wrap);
+  return with_decoder(pixels, [&](const auto& decode) { return mix(cell, decode); });
+}
+
+// --- levels
+// --------------------------------------------------------------------------------------------------
+
+template <class Decode>
+void TexelPyramid::decode_with(const Level& level, int y, float* out, const Decode& decode) const {
+  const std::size_t channels = is_number_ ? 1 : 3;
+  const std::uint8_t* texel =
+      level.data + static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) * level.texel_bytes;
+  for (int x = 0; x < level.width; ++x, texel += level.texel_bytes, out += channels) {
+    for (std::size_t c = 0; c < channels; ++c) out[c] = decode(texel, c);
+  }
+}
+
+void TexelPyramid::decode_row(const Level& level, int y, float* out) const {
+  with_decoder(level, [&](const auto& decode) { decode_with(level, y, out, decode); });
+}
+
+namespace {
+
+/// Texels first … and how much of each, which together are one texel of an axis with fewer.
+struct Share {
+  int first = 0;
+  std::vector<float> weights;
+};
+
+Share share_of(int index, int count, int of_count) {
+  const double from = static_cast<double>(index) * of_count / count;
+  const double to = static_cast<double>(index + 1) * of_count / count;
+  Share share{static_cast<int>(from), {}};
+  for (int i = share.first; i < of_count && i < to; ++i) {
+    share.weights.push_back(
+        static_cast<float>((std::min(to, i + 1.0) - std::max(from, double(i))) / (to - from)));
+  }
+  return share;
+}
+
+std::vector<Share> shares_of(int count, int of_count) {
+  std::vector<Share> shares;
+  for (int i = 0; i < count; ++i) shares.push_back(share_of(i, count, of_count));
+  return shares;
+}
+
+}  // namespace
+
+void TexelPyramid::add_level() {
+  const Level from = levels_.back();
+  const std::size_t channels = is_number_ ? 1 : 3;
+  const bool is_short = !table_.empty();  // of values in 0..1
+  const std::size_t number_bytes = is_short ? 2 : 4;
+  Level to{std::max(from.width / 2, 1), std::max(from.height / 2, 1),
+           is_short ? Format::kShort : Format::kFloat, nullptr, channels * number_bytes};
+  for (std::size_t c = 0; c < channels; ++c) to.offsets[c] = c * number_bytes;
+  const std::size_t row_bytes = to.texel_bytes * static_cast<std::size_t>(to.width);
+  owned_.push_back(
+      std::make_unique_for_overwrite<std::uint8_t[]>(row_bytes * static_cast<std::size_t>(to.height)));
+  owned_bytes_ += row_bytes * static_cast<std::size_t>(to.height);
+  std::uint8_t* out = owned_.back().get();
+  to.data = out;
+
+  const std::vector<Share> columns = shares_of(to.width, from.width);
+  constexpr int kBand = 16;
+  parallel_for(static_cast<std::size_t>((to.height - 1) / kBand + 1), [&](std::size_t band) {
+    const std::size_t row_values = channels * static_cast<std::size_t>(from.width);
+    std::vector<float> row(row_values), sum(row_values), averages(channels * columns.size());
+    const int first = static_cast<int>(band) * kBand;
+    for (int y = first; y < std::min(first + kBand, to.height); ++y) {
+      const Share rows = share_of(y, to.height, from.height);
+      std::fill(sum.begin(), sum.end(), 0.0f);
+      for (std::size_t i = 0; i < rows.weights.size(); ++i) {
+        decode_row(from, rows.first + static_cast<int>(i), row.data());
+        for (std::size_t k = 0; k < row_values; ++k) sum[k] += rows.weights[i] * row[k];
+      }
+      for (std::size_t x = 0; x < columns.size(); ++x) {
+        const float* texel = sum.data() + channels * static_cast<std::size_t>(columns[x].first);
+        for (std::size_t c = 0; c < channels; ++c) {
+          float average = 0;
+          for (std::size_t i = 0; i < columns[x].weights.size(); ++i) {
+            average += columns[x].weights[i] * texel[i * channels + c];
+          }
+          averages[channels * x + c] = average;
+        }
+      }
+      std::uint8_t* out_row = out + row_bytes * static_cast<std::size_t>(y);
+      if (!is_short) {
+        std::memcpy(out_row, averages.data(), row_bytes);
+        continue;
+      }
+      for (std::size_t k = 0; k < averages.size(); ++k) {
+        const auto rounded = static_cast<std::uint16_t>(std::clamp(averages[k], 0.0f, 1.0f) * 65535 + 0.5f);
+        std::memcpy(out_row + 2 * k, &rounded, 2);
+      }
+    }
+  });
+  levels_.push_back(to);
+}
+
+std::size_t TexelPyramid::bytes() const { return owned_bytes_ + table_.size() * sizeof(float); }
+
+}  // namespace raytracer
