@@ -94,7 +94,8 @@ std::size_t EarClipper::find_ear(std::size_t from) {
       flat = corner;
     }
   }
-  if (!has_flat) budget_ /= 8;  // it crosses itself: no way to cut it is right, so less and less is spent on it
+  // Without ears it crosses itself: no way to cut it is right, so less and less is spent on it.
+  if (!has_flat) budget_ /= 8;
   return flat;
 }
 
