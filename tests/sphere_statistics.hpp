@@ -37,8 +37,9 @@ class Cells {
     return std::min(kRings - 1, int(q * kRings)) * kSectors + std::min(kSectors - 1, int(turn * kSectors));
   }
 
-  /// The integral of a density of directions over each cell, to about 1e-5: by 8^2 points in each and more
-  /// where it varies. Where many of the `counts` fell, a narrow peak may hide between those: there by 64^2.
+  /// The integral of a density of directions over each cell, to half a percent: by 8^2 points in each and
+  /// more where it varies. Where many of the `counts` fell, a narrow peak may hide between those: there by
+  /// 64^2.
   std::vector<double> integrals(const std::function<double(const Vector3f&)>& density,
                                 const std::vector<double>& counts) const {
     std::vector<double> result;
@@ -83,7 +84,7 @@ class Cells {
     std::array<double, 4> sums{};
     double fine = 0;
     for (std::size_t k = 0; k < 4; ++k) fine += sums[k] = sum(density, parts[k]);
-    if (depth >= 5 || (depth >= 0 && std::abs(fine - coarse) < 1e-6 + 1e-3 * fine)) return fine;
+    if (depth >= 5 || (depth >= 0 && std::abs(fine - coarse) < 1e-5 + 3e-3 * fine)) return fine;
     fine = 0;
     for (std::size_t k = 0; k < 4; ++k) fine += refined(density, parts[k], sums[k], depth + 1);
     return fine;

@@ -18,6 +18,7 @@ namespace raytracer {
 
 class Accelerator;
 class LightSet;
+class ShiningParts;
 
 /// How many rays a scene takes at once.
 inline constexpr std::size_t kMostRays = 16;
@@ -135,6 +136,8 @@ class Scene {
 
   /// All that shines; gathered when it is first asked for.
   const LightSet& lights() const;
+  /// Likewise the shapes among it, as `classic` wants them.
+  const ShiningParts& shining() const;
 
   /// Whether any mesh has colours at its vertices.
   bool has_vertex_colors() const { return has_vertex_colors_; }
@@ -150,6 +153,8 @@ class Scene {
   bool has_vertex_colors_ = false;
   mutable std::once_flag lights_gathered_;
   mutable std::unique_ptr<const LightSet> lights_;
+  mutable std::once_flag shining_gathered_;
+  mutable std::unique_ptr<const ShiningParts> shining_;
 };
 
 }  // namespace raytracer

@@ -62,6 +62,8 @@ struct LoadOptions {
   std::optional<int> width, height;
   std::optional<int> samples;
   std::optional<int> bounces;
+  std::optional<Method> method;
+  std::optional<std::uint32_t> seed;
   std::string camera;  ///< the name of the camera to use; empty: the first
   std::vector<Setting> settings;
   Limits limits;

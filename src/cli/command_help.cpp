@@ -9,6 +9,7 @@
 #include "cli/reference.hpp"
 #include "core/suggest.hpp"
 #include "raytracer/error.hpp"
+#include "scene_file/material_library.hpp"
 #include "scene_file/word_help.hpp"
 
 namespace raytracer::cli {
@@ -16,10 +17,12 @@ namespace {
 
 using scene_file::FunctionRow;
 using scene_file::KindRow;
+using scene_file::LibraryMaterial;
 using scene_file::PropertyRow;
 using scene_file::WordRow;
 
 constexpr std::string_view kFunctionsTopic = "functions";
+constexpr std::string_view kMaterialsTopic = "materials";
 
 std::string list_line(std::string_view title, std::string_view help) {
   return fmt::format("  {:<18}  {}\n", title, help);
@@ -30,6 +33,7 @@ std::string list_of_words() {
   for (const KindRow& kind : scene_file::all_kinds()) out += list_line(title_of(kind), kind.help);
   out += "\nAround them:\n\n";
   for (const WordRow& row : scene_file::all_statements()) out += list_line(row.name, row.help);
+  out += list_line(kMaterialsTopic, "Materials that every scene may name: glass, gold, …");
   return out + list_line(kFunctionsTopic, "What can be computed with: sin, mix, random, …");
 }
 
@@ -86,15 +90,32 @@ std::string functions_text() {
   return out + "\nOperators: + - * / % ^   < <= > >= == !=   and or not   a ? b : c   v.x v.y v.z\n";
 }
 
+std::string materials_text() {
+  std::string out = fmt::format(
+      "{}: Every scene may name them, as in 'sphere {{ material glass }}'. One of the same name that the "
+      "scene\n"
+      "defines takes its place. 'raytracer help glass' shows what one is made of.\n\n",
+      kMaterialsTopic);
+  for (const LibraryMaterial& row : scene_file::material_library()) out += list_line(row.name, row.help);
+  return out;
+}
+
+std::string material_text(const LibraryMaterial& row) {
+  return fmt::format("{0}: {1}\n\n  material {0} {{ {2} }}\n", row.name, row.help, row.text);
+}
+
 // Of a word other than a block; empty where it is none of the language.
 std::string other_text(std::string_view word) {
   if (word == kFunctionsTopic) return functions_text();
+  if (word == kMaterialsTopic) return materials_text();
   for (const auto& rows : {scene_file::all_statements(), scene_file::all_constants()}) {
     const auto row = std::ranges::find(rows, word, &WordRow::name);
     if (row != rows.end()) return word_text(*row);
   }
-  const FunctionRow* function = scene_file::find_function(word);
-  return function == nullptr ? std::string() : fmt::format("{}: {}\n", call_of(*function), function->help);
+  if (const FunctionRow* function = scene_file::find_function(word))
+    return fmt::format("{}: {}\n", call_of(*function), function->help);
+  const LibraryMaterial* material = scene_file::find_library_material(word);
+  return material == nullptr ? std::string() : material_text(*material);
 }
 
 [[noreturn]] void unknown_word(const std::string& message, std::string_view word,
@@ -135,9 +156,11 @@ std::vector<std::string_view> help_topics() {
     if (row.variant.empty()) words.push_back(row.name);
   }
   for (const WordRow& row : scene_file::all_statements()) words.push_back(row.name);
+  words.push_back(kMaterialsTopic);
   words.push_back(kFunctionsTopic);
   for (const FunctionRow& row : scene_file::all_functions()) words.push_back(row.name);
   for (const WordRow& row : scene_file::all_constants()) words.push_back(row.name);
+  for (const LibraryMaterial& row : scene_file::material_library()) words.push_back(row.name);
   return words;
 }
 

@@ -71,7 +71,8 @@ class Renderer {
     run_.render += watch_.lap() - statistics.build_seconds;
     run_.width = image.width;
     run_.height = image.height;
-    return image;
+    if (sink_.wants_light()) return image;
+    return develop(std::move(image), settings.development);
   }
 
   const LoadedScene& scene_;

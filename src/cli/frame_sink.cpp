@@ -16,8 +16,9 @@ namespace {
 constexpr char kKeyword[] = "Scene-Hash";
 
 constexpr PictureFormat kFormats[] = {
-    {".png", encode_png_with},
-    {".pfm", [](const std::vector<PngText>&, const Image& image) { return encode_pfm(image); }},
+    {".png", encode_png_with, false},
+    {".pfm", [](const std::vector<PngText>&, const Image& image) { return encode_pfm(image); }, true},
+    {".exr", [](const std::vector<PngText>&, const Image& image) { return encode_exr(image); }, true},
 };
 
 void write_to(const std::string& path, const std::vector<std::uint8_t>& bytes) {
@@ -38,13 +39,16 @@ const PictureFormat& format_of(const std::string& path) {
   std::string known;
   for (const PictureFormat& format : kFormats) {
     if (format.ending == ending) return format;
-    known += fmt::format("{}{}", known.empty() ? "" : " and ", format.ending);
+    const bool is_last = &format == std::end(kFormats) - 1;
+    known += fmt::format("{}{}", known.empty() ? "" : is_last ? " and " : ", ", format.ending);
   }
   throw Error(ErrorKind::kUsage,
               fmt::format("'{}': pictures are written as {}, films as .mp4, .webm and .gif", path, known));
 }
 
 bool is_png(const std::string& path) { return &format_of(path) == &kFormats[0]; }
+
+bool PictureFiles::wants_light() const { return format_of(path_).holds_light; }
 
 bool PictureFiles::has(int frame, const std::string& key) const {
   return read_png_text(with_frame_number(path_, frame), kKeyword) == key;

@@ -19,6 +19,8 @@ class FrameSink {
   /// Whether this frame is there from an earlier run; `key` says what it would show.
   virtual bool has(int /*frame*/, const std::string& /*key*/) const { return false; }
   virtual void add(int frame, const std::string& key, const Image& image) = 0;
+  /// Whether pictures are wanted as they were rendered, before they are developed for a display.
+  virtual bool wants_light() const { return false; }
   /// A frame like the one that was added last.
   virtual void repeat(int frame) = 0;
   virtual void finish() {}
@@ -28,6 +30,7 @@ class FrameSink {
 struct PictureFormat {
   std::string_view ending;
   std::vector<std::uint8_t> (*encode)(const std::vector<PngText>& texts, const Image& image);
+  bool holds_light;  ///< floats, as they were rendered; else what a display shows
 };
 /// PNG where the name has no ending. Throws Error (kUsage) for another one.
 const PictureFormat& format_of(const std::string& path);
@@ -43,6 +46,7 @@ class PictureFiles : public FrameSink {
   /// A key that is not empty is put into the file.
   void add(int frame, const std::string& key, const Image& image) override;
   void repeat(int frame) override;
+  bool wants_light() const override;
 
  private:
   std::string path_;

@@ -12,6 +12,7 @@
 #include "core/suggest.hpp"
 #include "raytracer/error.hpp"
 #include "scene_file/limits.hpp"
+#include "scene_file/method.hpp"
 
 namespace raytracer::cli {
 namespace {
@@ -57,6 +58,12 @@ void set_time(Options& options, const std::string& value) {
   options.time_at = time;
 }
 
+void set_method(Options& options, const std::string& value) {
+  options.load.method = scene_file::find_method(value);
+  if (options.load.method) return;
+  usage_error(fmt::format("--method takes {}, not '{}'", fmt::join(scene_file::kMethodWords, " or "), value));
+}
+
 void add_setting(Options& options, const std::string& value) {
   const std::size_t equals = value.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -86,15 +93,21 @@ constexpr std::uint8_t kLoading = kRender | kCheck | kParams;
 constexpr std::uint8_t kAll = kRender | kCheck | kHelp | kParams | kFmt | kJson;
 
 constexpr OptionRow kOptions[] = {
-    {"--output", "-o", "FILE", kRender | kJson, false, "picture .png .pfm, film .mp4 .webm .gif; - is stdout",
+    {"--output", "-o", "FILE", kRender | kJson, false,
+     "picture .png .exr .pfm, film .mp4 .webm .gif; - is stdout",
      [](Options& o, const std::string& v) { o.output = v; }},
     {"--size", "", "WxH", kLoading, false, "width and height in pixels", set_size},
     {"--samples", "", "N", kLoading, false, "rays per pixel",
      [](Options& o, const std::string& v) {
        o.load.samples = whole_number<int>("--samples", v, 1, 1'000'000);
      }},
-    {"--bounces", "", "N", kLoading, false, "reflections followed",
+    {"--bounces", "", "N", kLoading, false, "reflections followed, or scatterings in method path",
      [](Options& o, const std::string& v) { o.load.bounces = whole_number<int>("--bounces", v, 0, 1000); }},
+    {"--method", "", "METHOD", kLoading, false, "how light is computed: classic or path", set_method},
+    {"--seed", "", "N", kLoading, false, "other sample points, other noise",
+     [](Options& o, const std::string& v) {
+       o.load.seed = whole_number<std::uint32_t>("--seed", v, 0, 2147483647);
+     }},
     {"--camera", "", "NAME", kLoading, false, "the camera to use, where the scene has several",
      [](Options& o, const std::string& v) { o.load.camera = v; }},
     {"--allow-path", "", "DIR", kLoading | kJson, false, "a further folder that the scene may read from",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene_file/limits.hpp"
+#include "scene_file/material_library.hpp"
 #include "scene_file/word_help.hpp"
 
 namespace raytracer::cli {
@@ -96,6 +97,10 @@ std::string markdown_reference() {
     out += fmt::format("| `{}` | {} |\n", call_of(row), cell(row.help));
   }
   out += word_table(scene_file::all_constants());
+  out += "\n### Materials to name\n\n| `material` | | what it is made of |\n| --- | --- | --- |\n";
+  for (const scene_file::LibraryMaterial& row : scene_file::material_library()) {
+    out += fmt::format("| `{}` | {} | `{}` |\n", row.name, cell(row.help), row.text);
+  }
   out += "\n### Limits\n\n| `--limit` | default | of |\n| --- | --- | --- |\n";
   for (const scene_file::LimitRow& row : scene_file::all_limits()) {
     out += fmt::format("| `{}` | {} | {} |\n", row.name, Limits{}.*row.field, cell(row.help));

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "integrators/media.hpp"
 #include "materials/bsdf.hpp"
+#include "materials/media.hpp"
 #include "raytracer/render.hpp"
 #include "raytracer/scene.hpp"
 #include "sampling/path_points.hpp"

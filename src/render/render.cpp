@@ -92,18 +92,31 @@ class TileSums {
   std::vector<Color3f> sums_;
 };
 
-// The ray through the point `within` (0 … 1) of a pixel.
-Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within) {
+// The ray through the point `within` (0 … 1) of a pixel and a point of the lens.
+Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
+                 const Vector2f& lens) {
   const double across = (pixel.x + static_cast<double>(within.x)) / image.width;
   const double down = (pixel.y + static_cast<double>(within.y)) / image.height;
-  return scene.camera().ray_through(across, down);
+  return scene.camera().ray_through(across, down, lens);
+}
+
+// How wide what that ray stands for is. Many samples share a pixel: each stands for a part of it.
+RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
+                    const Vector2f& lens, const Ray3f& ray, int samples) {
+  const Ray3f next = camera_ray(scene, image, pixel, within + Vector2f(1, 0), lens);
+  const float share = 1 / std::sqrt(static_cast<float>(samples));
+  return {share * glm::length(next.origin - ray.origin), share * glm::length(next.direction - ray.direction)};
 }
 
 // Renders the samples of one slice of time by the paper's recursion.
 class ClassicRenderer {
  public:
   ClassicRenderer(const Scene& scene, const RenderSettings& settings, const Slice& slice, Image& image)
-      : scene_(scene), settings_(settings), slice_(slice), image_(image) {}
+      : scene_(scene),
+        settings_(settings),
+        slice_(slice),
+        image_(image),
+        has_textures_(has_textures(scene.description())) {}
 
   /// Adds to the tile's pixels; returns how many rays that took.
   std::uint64_t render(const Tile& tile) const {
@@ -111,12 +124,23 @@ class ClassicRenderer {
     const std::vector<glm::ivec2>& pixels = sums.pixels();
     std::vector<Color3f> colors(pixels.size());
     std::vector<Ray3f> rays(pixels.size());
+    std::vector<Vector2f> light_points(settings_.samples == 1 ? 0 : pixels.size());
+    std::vector<RayCone> cones(has_textures_ ? pixels.size() : 0);
     PixelColors tracer(scene_);
+    const bool has_lens = scene_.camera().has_lens();
     for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
       for (std::size_t i = 0; i < pixels.size(); ++i) {
-        rays[i] = camera_ray(scene_, image_, pixels[i], place_in_pixel(pixels[i], sample));
+        const Vector2f lens = has_lens ? place_on_lens(pixels[i], sample) : Vector2f(0.5F);
+        const Vector2f within = place_in_pixel(pixels[i], sample);
+        rays[i] = camera_ray(scene_, image_, pixels[i], within, lens);
+        if (has_textures_) {
+          cones[i] = camera_cone(scene_, image_, pixels[i], within, lens, rays[i], settings_.samples);
+        }
       }
-      tracer.trace(rays, settings_.bounces, colors);
+      for (std::size_t i = 0; i < light_points.size(); ++i) {
+        light_points[i] = point_of_lights(pixels[i], sample);
+      }
+      tracer.trace(rays, settings_.bounces, colors, light_points, cones);
       sums.add(colors, 1);
     }
     sums.store(slice_, settings_.samples);
@@ -131,10 +155,38 @@ class ClassicRenderer {
     return sobol_point(static_cast<std::uint32_t>(sample), hash_bits(number ^ hash_bits(settings_.seed)));
   }
 
+  // The same points in an order of their own, so that no place in the pixel belongs to a place on the lens.
+  Vector2f place_on_lens(const glm::ivec2& pixel, int sample) const {
+    if (settings_.samples == 1) return Vector2f(0.5f);
+    const auto number = static_cast<std::uint32_t>(image_.index(pixel.x, pixel.y));
+    const std::uint32_t seed = hash_bits(number ^ hash_bits(settings_.seed ^ 0x6C656E73U));
+    return sobol_point(owen_scramble(static_cast<std::uint32_t>(sample), seed), hash_bits(seed));
+  }
+
+  static bool has_textures(const SceneDescription& scene) {
+    const auto is_textured = [](const Material& material) { return material.textures != nullptr; };
+    return std::ranges::any_of(scene.materials, is_textured) ||
+           std::ranges::any_of(scene.shared, [&](const auto& shared) {
+             for (std::uint32_t i = 0; i < shared->size(); ++i) {
+               if (is_textured(shared->material_of(i))) return true;
+             }
+             return false;
+           });
+  }
+
+  // Another point of the same kind, for the places on what shines.
+  Vector2f point_of_lights(const glm::ivec2& pixel, int sample) const {
+    const auto number = static_cast<std::uint32_t>(image_.index(pixel.x, pixel.y));
+    constexpr std::uint32_t kOther = 0x68BC21EBU;
+    return sobol_point(static_cast<std::uint32_t>(sample),
+                       hash_bits(number ^ hash_bits(settings_.seed ^ kOther)));
+  }
+
   const Scene& scene_;
   const RenderSettings& settings_;
   const Slice& slice_;
   Image& image_;
+  bool has_textures_;
 };
 
 // Likewise by path tracing.
@@ -156,13 +208,15 @@ class PathRenderer {
     std::vector<Color3f> colors(pixels.size());
     std::vector<ConeRay> rays(pixels.size());
     std::vector<PathNumber> numbers(pixels.size());
-    std::vector<Vector2f> places(pixels.size());
+    std::vector<Vector2f> places(pixels.size()), on_lens(pixels.size(), Vector2f(0.5F));
+    const bool has_lens = scene_.camera().has_lens();
     PathTracer tracer(scene_, settings_, points_, media_);
     for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
       for (std::size_t i = 0; i < pixels.size(); ++i)
         numbers[i] = points_.number(pixels[i].x, pixels[i].y, sample);
       points_.fill(0, numbers, places);
-      for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = cone_ray(pixels[i], places[i]);
+      if (has_lens) points_.fill(1, numbers, on_lens);
+      for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = cone_ray(pixels[i], places[i], on_lens[i]);
       tracer.trace(rays, numbers, colors);
       sums.add(colors, kWhite);
     }
@@ -173,13 +227,10 @@ class PathRenderer {
  private:
   static constexpr float kWhite = 255;
 
-  // Many samples share a pixel: each stands for a part of it.
-  ConeRay cone_ray(const glm::ivec2& pixel, const Vector2f& place) const {
-    const Ray3f ray = camera_ray(scene_, image_, pixel, place);
-    const Ray3f next = camera_ray(scene_, image_, pixel, place + Vector2f(1, 0));
-    const float share = 1 / std::sqrt(static_cast<float>(settings_.samples));
-    return {ray, share * glm::length(next.origin - ray.origin),
-            share * glm::length(next.direction - ray.direction)};
+  ConeRay cone_ray(const glm::ivec2& pixel, const Vector2f& place, const Vector2f& lens) const {
+    const Ray3f ray = camera_ray(scene_, image_, pixel, place, lens);
+    const RayCone cone = camera_cone(scene_, image_, pixel, place, lens, ray, settings_.samples);
+    return {ray, cone.width, cone.spread};
   }
 
   const Scene& scene_;

@@ -3,84 +3,26 @@
 #include <algorithm>
 
 #include "lights/illuminate.hpp"
+#include "scene/recursion.hpp"
+#include "scene/shining_parts.hpp"
 
 namespace raytracer {
-namespace {
-
-inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hit& hit) {
-  const SurfacePoint surface = scene.surface_at(ray, hit);
-  ShadingPoint point;
-  const bool is_back = glm::dot(surface.normal, ray.direction) > 0;
-  point.normal = is_back ? -surface.normal : surface.normal;
-  point.shading_normal = is_back ? -surface.shading_normal : surface.shading_normal;
-  if (const auto& epsilon = scene.description().epsilon) {
-    // The paper's way: the point as the ray's equation gives it, its rounding error included.
-    point.position = ray.at(hit.t);
-    point.offset_position = point.position + *epsilon * point.normal;
-  } else {
-    point.position = surface.position;
-    point.offset_position = point.position + surface.position_error * point.normal;
-  }
-  point.shadow_position = point.offset_position + surface.shadow_offset;
-  return point;
-}
-
-// A mirror that is curved by its shading normals alone may send a ray into itself: it then goes along the
-// surface.
-Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
-  Vector3f direction = glm::reflect(ray.direction, point.shading_normal);
-  const float away = glm::dot(direction, point.normal);
-  if (away < 0) direction -= 1.001f * away * point.normal;
-  return {point.offset_position, direction};
-}
-
-// With what the vertices of a mesh say.
-Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hit, const Material& material) {
-  if (!scene.has_vertex_colors() || !material.takes_vertex_colors) return material.color;
-  return material.color * scene.detail_at(ray, hit).color;
-}
-
-float mirror_share(const Material& material) { return glm::clamp(material.shininess, 0.0f, 1.0f); }
-
-// The sum over the lights that the point sees, in units of the buffers.
-Color3f direct_light(const Scene& scene, const ShadingPoint& point, std::uint64_t& rays) {
-  Color3f sum = 255.0f * scene.description().ambient;
-  for (const Light& light : scene.description().lights) {
-    const Illumination arriving =
-        illuminate(light, point.position, point.shading_normal, point.shadow_position);
-    if (arriving.color == Color3f(0)) continue;
-    ++rays;
-    if (!scene.is_occluded(arriving.shadow_ray)) sum += arriving.color;
-  }
-  return sum;
-}
-
-}  // namespace
 
 Color3f get_pixel_color(const Scene& scene, const Ray3f& ray, int bounces_left, std::uint64_t& rays) {
-  ++rays;
-  Hit hit;
-  if (!scene.is_hit(ray, hit)) return 255.0f * scene.description().background;
-  const Material& material = scene.material_of(hit);
-  const float shininess = mirror_share(material);
-  const ShadingPoint point = shading_point(scene, ray, hit);
-  const Color3f tint = surface_color(scene, ray, hit, material);
-  Color3f color(0);
-  if (shininess < 1) color += (1 - shininess) * tint * direct_light(scene, point, rays);
-  if (shininess > 0 && bounces_left > 0) {
-    const Ray3f reflected = reflected_ray(ray, point);
-    color += shininess * tint * get_pixel_color(scene, reflected, bounces_left - 1, rays);
-  }
-  return color;
+  return Recursion(scene, nullptr, rays).look({ray, bounces_left}).color;
 }
 
 // --- many rays
 // -------------------------------------------------------------------------------------------------------
 
-void PixelColors::trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors) {
+void PixelColors::trace(std::span<const Ray3f> rays, int bounces, std::span<Color3f> colors,
+                        std::span<const Vector2f> light_points, std::span<const RayCone> cones) {
   if (rays.empty()) return;
+  light_points_ = light_points;
   if (levels_.empty()) levels_.resize(1);
   levels_[0].rays.assign(rays.begin(), rays.end());
+  levels_[0].cones.assign(cones.begin(), cones.end());
+  levels_[0].cones.resize(rays.size());
   std::size_t depth = 0;
   for (; static_cast<int>(depth) <= bounces && !levels_[depth].rays.empty(); ++depth) {
     shade(depth, bounces - static_cast<int>(depth));
@@ -101,8 +43,10 @@ void PixelColors::shade(std::size_t depth, int bounces_left) {
   Level* next = bounces_left > 0 ? &levels_[depth + 1] : nullptr;
   if (next != nullptr) {
     next->rays.clear();
+    next->cones.clear();
     next->parent.clear();
     next->share.clear();
+    next->origin.clear();
   }
   lit_.clear();
   level.colors.assign(level.rays.size(), Color3f(0));
@@ -110,31 +54,56 @@ void PixelColors::shade(std::size_t depth, int bounces_left) {
   find_hits(level.rays, coherence);
   for (std::uint32_t i = 0; i < level.rays.size(); ++i) {
     if (is_hit_[i]) {
-      shade_hit(level, i, hits_[i], next);
+      shade_hit(depth, bounces_left, i, next);
     } else {
-      level.colors[i] = 255.0f * scene_.description().background;
+      level.colors[i] = color_beyond(scene_.description(), level.rays[i], depth == 0);
     }
   }
   for (const Light& light : scene_.description().lights) add_light(light, coherence);
+  if (!shining_.is_empty()) add_light_of_shapes(level);
   for (const LitPoint& lit : lit_) level.colors[lit.ray] += lit.share * lit.light;
 }
 
-void PixelColors::shade_hit(Level& level, std::uint32_t ray, const Hit& hit, Level* next) {
+// The place on what shines that belongs to a ray; null: its middle.
+const Vector2f* PixelColors::light_point(const Level& level, std::uint32_t ray) const {
+  if (light_points_.empty()) return nullptr;
+  return &light_points_[level.origin.empty() ? ray : level.origin[ray]];
+}
+
+void PixelColors::add_light_of_shapes(const Level& level) {
+  for (LitPoint& lit : lit_) {
+    lit.light += Recursion(scene_, light_point(level, lit.ray), rays_).light_of_shapes(lit.point);
+  }
+}
+
+void PixelColors::shade_hit(std::size_t depth, int bounces_left, std::uint32_t ray, Level* next) {
+  Level& level = levels_[depth];
+  const Ray3f& seen_along = level.rays[ray];
+  const Hit& hit = hits_[ray];
   const Material& material = scene_.material_of(hit);
+  if (!is_of_paper(material)) {
+    Recursion recursion(scene_, light_point(level, ray), rays_);
+    Sight sight{seen_along, bounces_left, depth == 0};
+    sight.cone = level.cones[ray];
+    level.colors[ray] = recursion.look_at_layers(sight, hit).color;
+    return;
+  }
   const float shininess = mirror_share(material);
-  const ShadingPoint point = shading_point(scene_, level.rays[ray], hit);
-  const Color3f tint = surface_color(scene_, level.rays[ray], hit, material);
+  const Color3f color = surface_color(scene_, seen_along, hit, material);
+  const ShadingPoint point = shading_point(scene_, seen_along, hit, scene_.surface_at(seen_along, hit));
   if (shininess < 1) {
     LitPoint& lit = lit_.emplace_back();
     lit.point = point;
     lit.ray = ray;
-    lit.share = (1 - shininess) * tint;
+    lit.share = (1 - shininess) * color;
     lit.light = 255.0f * scene_.description().ambient;
   }
   if (shininess > 0 && next != nullptr) {
-    next->rays.push_back(reflected_ray(level.rays[ray], point));
+    next->rays.push_back(reflected_ray(seen_along, point));
+    next->cones.push_back(level.cones[ray].at(hit.t));
     next->parent.push_back(ray);
-    next->share.push_back(shininess * tint);
+    next->share.push_back(shininess * color);
+    if (!light_points_.empty()) next->origin.push_back(level.origin.empty() ? ray : level.origin[ray]);
   }
 }
 
@@ -164,6 +133,10 @@ void PixelColors::add_light(const Light& light, Coherence coherence) {
     const Illumination arriving =
         illuminate(light, point.position, point.shading_normal, point.shadow_position);
     if (arriving.color == Color3f(0)) continue;
+    if (shining_.has_see_through()) {
+      lit_[i].light += arriving.color * share_passing(scene_, arriving.shadow_ray, rays_);
+      continue;
+    }
     ++rays_;
     if (coherence == Coherence::kIncoherent) {
       if (!scene_.is_occluded(arriving.shadow_ray)) lit_[i].light += arriving.color;

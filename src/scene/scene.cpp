@@ -7,6 +7,7 @@
 #include "scene/accelerator.hpp"
 #include "scene/light_set.hpp"
 #include "scene/pixel_color.hpp"
+#include "scene/shining_parts.hpp"
 #include "scene/vertex_colors.hpp"
 
 namespace raytracer {
@@ -55,6 +56,12 @@ Color3f Scene::get_pixel_color(const Ray3f& ray, int bounces_left) const {
 const LightSet& Scene::lights() const {
   std::call_once(lights_gathered_, [this] { lights_ = std::make_unique<const LightSet>(description_); });
   return *lights_;
+}
+
+const ShiningParts& Scene::shining() const {
+  std::call_once(shining_gathered_,
+                 [this] { shining_ = std::make_unique<const ShiningParts>(description_); });
+  return *shining_;
 }
 
 }  // namespace raytracer

@@ -42,12 +42,15 @@ class ArgumentReader {
       case PropertyType::kWord:
         return word();
       case PropertyType::kMaterial:
+      case PropertyType::kName:
         return name();
       case PropertyType::kBoolean:
         return single(ValueType::kBoolean);
       case PropertyType::kString:
       case PropertyType::kFile:
         return single(ValueType::kString);
+      case PropertyType::kStop:
+        return stop();
       case PropertyType::kNumbers:
         return list();
       default:
@@ -74,6 +77,27 @@ class ArgumentReader {
   void wrong_type(const ValueNode& value, std::string_view what) {
     error(value.span, fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), what),
           example());
+  }
+
+  // A number and a colour, which goes in front: numbers[3] is where it stands.
+  std::optional<Argument> stop() {
+    PropertyNode place = property_, color = property_;
+    place.values = property_.values.first(1);
+    color.values = property_.values.subspan(1);
+    PropertyRow number_row = row_, color_row = row_;
+    number_row.type = PropertyType::kNumber;
+    color_row.type = PropertyType::kColor;
+    color_row.range = kAnyNumber;
+    if (color.values.empty()) {
+      error(property_.name, fmt::format("'{}' needs {}", row_.name, describe_type(row_)), example());
+      return std::nullopt;
+    }
+    const auto at = ArgumentReader(number_row, place, source_, visibility_, evaluator_, diagnostics_).read();
+    auto result = ArgumentReader(color_row, color, source_, visibility_, evaluator_, diagnostics_).read();
+    if (!at || !result) return std::nullopt;
+    result->numbers[3] = at->numbers[0];
+    result->depends_on_time = result->depends_on_time || at->depends_on_time;
+    return result;
   }
 
   bool is_spread() const { return row_.type == PropertyType::kSize || row_.type == PropertyType::kColor; }
@@ -232,12 +256,14 @@ std::size_t most_numbers(PropertyType type) {
     case PropertyType::kInteger:
       return 1;
     case PropertyType::kPixels:
+    case PropertyType::kPair:
       return 2;
     case PropertyType::kVector:
     case PropertyType::kSize:
     case PropertyType::kColor:
       return 3;
     case PropertyType::kAxisAngle:
+    case PropertyType::kStop:
       return 4;
     case PropertyType::kMatrix:
       return kMostNumbers;

@@ -6,6 +6,7 @@
 #include "core/suggest.hpp"
 #include "scene_file/arguments.hpp"
 #include "scene_file/builder.hpp"
+#include "scene_file/colors.hpp"
 #include "scene_file/item_cutter.hpp"
 #include "scene_file/placing.hpp"
 
@@ -25,10 +26,19 @@ const Given* BlockContext::given(std::string_view property) const {
 }
 
 void BlockContext::error(std::string_view property, std::string message, std::string suggestion) {
-  const Given* written = given(property);
-  builder_.diagnostics_.error(written != nullptr ? written->place : header(), std::move(message),
-                              std::move(suggestion));
+  builder_.diagnostics_.error(place_of(property), std::move(message), std::move(suggestion));
 }
+
+void BlockContext::warning(std::string_view property, std::string message, std::string suggestion) {
+  builder_.diagnostics_.warning(place_of(property), std::move(message), std::move(suggestion));
+}
+
+Place BlockContext::place_of(std::string_view property) const {
+  const Given* written = given(property);
+  return written != nullptr ? written->place : header();
+}
+
+Method BlockContext::method() const { return builder_.method_; }
 
 // The message of a shape that can't be quotes the property it is about; the place is that property's, if it
 // was given.
@@ -43,7 +53,8 @@ void BlockContext::report_bad_shape(std::string_view problem) {
 // Notes a property as given; false where it was given before, which is an error unless it places the block.
 bool BlockContext::accept(const PropertyRow& row, const Place& place) {
   const Given* first = given(row.name);
-  const bool repeatable = is_placing(row) && row.name != "pivot" && row.name != "matrix";
+  const bool repeatable =
+      row.is_repeatable || (is_placing(row) && row.name != "pivot" && row.name != "matrix");
   if (first != nullptr && !repeatable) {
     builder_.diagnostics_.error(place, fmt::format("'{}' is given twice", row.name), {},
                                 {{first->place, "first given here"}});
@@ -82,6 +93,11 @@ void BlockContext::report_unknown_property(Span name) {
   }
   const std::string_view nearest = nearest_word(word, known);
   std::string suggestion;
+  if (std::ranges::find(row_.words_to_come, word) != row_.words_to_come.end()) {
+    builder_.diagnostics_.error(place(name), fmt::format("'{}' can't be shown yet", word),
+                                "a later version will; remove it");
+    return;
+  }
   if (!nearest.empty()) {
     suggestion = fmt::format("did you mean '{}'?", nearest);
   } else if (row_.takes_material && is_property_of("material", word)) {
@@ -96,17 +112,24 @@ void BlockContext::report_unknown_property(Span name) {
 }
 
 void BlockContext::store(const PropertyRow& row, const Argument& argument, void* input) {
-  if (parameters_ == nullptr) return row.store(input, argument);
+  if (parameters_ == nullptr) {
+    const bool is_number =
+        row_.block_class == BlockClass::kTexture && builder_.texture_meaning_ != TextureMeaning::kLight;
+    if (!argument.is_display || builder_.method_ == Method::kClassic || is_number) {
+      return row.store(input, argument);
+    }
+    Argument linear = argument;
+    for (std::size_t i = 0; i < 3; ++i) linear.numbers[i] = linear_from_display(argument.numbers[i]);
+    return row.store(input, linear);
+  }
   Value& value = (*parameters_)[static_cast<std::size_t>(&row - row_.properties.data())];
   const auto& n = argument.numbers;
   switch (row.type) {
     case PropertyType::kVector:
-      value.vector = {n[0], n[1], n[2]};
-      break;
     case PropertyType::kColor: {
-      const bool is_display = argument.is_display;
-      value = Value::color({n[0], n[1], n[2]});
-      value.is_display = is_display;
+      const bool is_color = row.type == PropertyType::kColor || argument.is_display;
+      value = is_color ? Value::color({n[0], n[1], n[2]}) : Value::of_vector({n[0], n[1], n[2]});
+      value.is_display = argument.is_display;
       break;
     }
     case PropertyType::kString:
@@ -126,6 +149,15 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
     return false;
   }
   if (!accept(*row, place(property.whole()))) return false;
+  if (row->store_texture != nullptr && parameters_ == nullptr) {
+    if (const auto is_sound = fill_texture_item(*row, property, input)) return *is_sound;
+  }
+  if (property.body != nullptr) {
+    builder_.diagnostics_.error(place(property.body->header()),
+                                fmt::format("'{}' takes {}, found a block", row->name, describe_type(*row)),
+                                fmt::format("{} {}", row->name, example_value(*row)));
+    return false;
+  }
   const auto argument = read_argument(*row, property, *around_.source, around_.frame->values,
                                       builder_.evaluator_, builder_.diagnostics_);
   if (!argument) return false;
@@ -134,8 +166,6 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
   if (row->type == PropertyType::kMaterial) {
     material_ = builder_.find_material(argument->text, place(property.values.front().span), around_);
     note_material();
-    if (SceneRecorder* recorder = builder_.recorder(); recorder && material_)
-      recorder->use_material(*material_);
     return material_.has_value();
   }
   const bool is_parameter = parameters_ != nullptr && !is_placing(*row);
@@ -156,7 +186,7 @@ void BlockContext::note_material() {
 }
 
 // A block inside this one: a material in place, a child, or a mistake.
-bool BlockContext::fill_block(const BlockNode& block) {
+bool BlockContext::fill_block(const BlockNode& block, void* input) {
   const std::string_view word = around_.source->text(block.kind);
   const PropertyRow* row = find_property(row_, word);
   if (row != nullptr && row->type == PropertyType::kMaterial && block.words.empty()) {
@@ -164,6 +194,9 @@ bool BlockContext::fill_block(const BlockNode& block) {
     material_ = builder_.build_inline_material(block, around_);
     note_material();
     return material_.has_value();
+  }
+  if (row != nullptr && row->store_texture != nullptr && block.words.size() == 1 && parameters_ == nullptr) {
+    return accept(*row, place(block.header())) && fill_texture_block(*row, block, input);
   }
   if (row != nullptr && (row->type != PropertyType::kMaterial || !row_.has_children)) {
     const bool names_material = row->type == PropertyType::kMaterial;
@@ -206,7 +239,7 @@ bool BlockContext::fill_items(void* input) {
     if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
       sound = fill_item(**property, input) && sound;
     } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
-      sound = fill_block(**block) && sound;
+      sound = fill_block(**block, input) && sound;
     } else if (const auto* let = std::get_if<const LetNode*>(&item)) {
       builder_.build_let(**let, around_, let_base_, false);
     } else if (!row_.has_children && node_.is_closed) {
@@ -283,9 +316,21 @@ void BlockContext::build_children() {
   builder_.definitions_.pop_to(definition_height);
 }
 
+// Light that goes into a sheet of solid glass would never come out.
+void BlockContext::warn_of_solid_sheet(const Material& material) {
+  if (material.transmission == 0 || material.thin) return;
+  warning({}, fmt::format("a {} encloses nothing, and its material lets light in", row_.name),
+          "a pane's material is thin: material { transmission 1  thin true }");
+}
+
 void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
   builder_.note_shape(header());
-  builder_.store_.add(std::move(shape), material_.value_or(around_.material), depends_on_time());
+  const std::uint32_t material = material_.value_or(around_.material);
+  if (!name_.empty() && shape->bounds().is_finite()) {
+    builder_.draft_.named_shapes.try_emplace(std::string(name_), shape->bounds());
+  }
+  if (row_.is_sheet) warn_of_solid_sheet(builder_.draft_.scene.materials[material]);
+  builder_.store_.add(std::move(shape), material, depends_on_time());
 }
 
 void BlockContext::add_mesh_file(std::string_view property, const std::string& file, MeshOptions options) {
@@ -320,12 +365,14 @@ void BlockContext::add_light(const Light& light) {
   builder_.note_shape(header());
   ++builder_.lights_made_;
   builder_.draft_.scene.lights.push_back(light);
+  builder_.draft_.light_places.push_back(header());
 }
 
 std::uint32_t BlockContext::add_material(const Material& material) {
   SceneDescription& scene = builder_.draft_.scene;
   const auto index = static_cast<std::uint32_t>(scene.materials.size());
   scene.materials.push_back(material);
+  builder_.material_uses_.push_back({{}, true, false, 0});
   builder_.last_material_ = index;
   if (SceneHasher* hasher = builder_.hasher()) hasher->add_material(index);
   return index;

@@ -6,6 +6,8 @@
 
 #include "core/deep_stack.hpp"
 #include "core/suggest.hpp"
+#include "scene_file/material_library.hpp"
+#include "scene_file/parser.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -86,6 +88,7 @@ void Builder::try_unused_definitions(const Surroundings& top) {
     is_trying_ = false;
     store_.stop_recording();
     draft_.scene.lights.resize(lights);
+    draft_.light_places.resize(lights);
     shapes_made_ = shapes_made;
     lights_made_ = lights_made;
     if (!used_time) evaluator_.forget_time();
@@ -186,7 +189,7 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
     return i < block.words.size() ? around.source->text(block.words[i]) : std::string_view();
   };
   const KindRow* plain = find_kind(word);
-  if (plain == nullptr) {
+  if (plain == nullptr && (!may_have_variant(word) || block.words.empty())) {
     report_unknown_kind(block, around);
     return nullptr;
   }
@@ -201,8 +204,7 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
   for (const KindRow& row : all_kinds()) {
     if (row.name == word && !row.variant.empty()) variants.push_back(row.variant);
   }
-  const bool is_to_come = word_at(0) == "area";
-  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty() && !is_to_come) return plain;
+  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty() && plain != nullptr) return plain;
   report_unknown_variant(block, around);
   return nullptr;
 }
@@ -246,6 +248,7 @@ void Builder::build_block(const BlockNode& block, const Surroundings& around) {
   const KindRow* row = resolve_kind(block, around, name);
   if (row == nullptr || !check_standing(*row, block, around)) return;
   if (row->block_class == BlockClass::kMaterial) return build_material(*row, block, name, around);
+  if (row->block_class == BlockClass::kTexture) return build_named_texture(*row, block, name, around);
   register_name(*row, name, {around.source, block.header()}, around);
   const SceneRecorder::Block recorded(recorder(), *row, name);
   BlockContext context(*this, *row, block, around, name);
@@ -277,7 +280,6 @@ void Builder::build_material(const KindRow& row, const BlockNode& block, std::st
   // A material with a mistake in it is known all the same: its uses are no mistakes.
   const std::uint32_t index = last_material_.value_or(0);
   materials_.push(id, index, place);
-  material_uses_.resize(draft_.scene.materials.size());
   const bool sound = diagnostics_.error_count() == errors_before;
   if (sound) material_uses_[index] = {place, false, context.depends_on_time(), id};
 }
@@ -289,7 +291,6 @@ std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& blo
   BlockContext context(*this, *row, block, around, {});
   last_material_.reset();
   row->build(context);
-  material_uses_.resize(draft_.scene.materials.size(), {{}, true, false, 0});
   if (last_material_) material_uses_[*last_material_] = {{}, true, context.depends_on_time(), 0};
   return last_material_;
 }
@@ -300,7 +301,14 @@ std::optional<std::uint32_t> Builder::find_material(std::string_view name, const
   if (position != decltype(materials_)::npos) {
     const std::uint32_t index = materials_.at(position).value;
     material_uses_[index].used = true;
+    if (SceneRecorder* told = recorder()) told->use_material(index);
     return index;
+  }
+  // Looked for once: a scene may name a material a million times.
+  const bool is_known = library_.contains(std::string(name));
+  const BlockNode* later = is_known ? nullptr : find_later_material(name, place);
+  if (later == nullptr) {
+    if (const auto index = find_library_material(name)) return index;
   }
   if (!diagnostics_.is_listening()) {
     diagnostics_.error(place, {});
@@ -308,20 +316,42 @@ std::optional<std::uint32_t> Builder::find_material(std::string_view name, const
   }
   std::vector<std::string_view> known;
   for (std::size_t i = 0; i < materials_.height(); ++i) {
-    if (around.frame->materials.shows(i)) known.push_back(files_.names().text(materials_.at(i).name));
+    const std::string_view other = files_.names().text(materials_.at(i).name);
+    const bool is_texture = other.find(' ') != std::string_view::npos;
+    if (!is_texture && around.frame->materials.shows(i)) known.push_back(other);
   }
+  for (const LibraryMaterial& row : material_library()) known.push_back(row.name);
   const std::string_view nearest = nearest_word(name, known);
   const bool is_color = evaluator_.look_up(files_.names().id_of(name), around.frame->values).is_vector();
   std::string suggestion = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
                            : is_color       ? fmt::format("material {{ color {} }}", name)
                                             : fmt::format("material {} {{ color red }}", name);
   std::vector<Note> notes;
-  if (const BlockNode* later = find_later_material(name, place)) {
+  if (later != nullptr) {
     notes.push_back({{place.source, later->header()}, "it is defined here, below its use"});
     suggestion = "a name is defined before it is used";
   }
   diagnostics_.error(place, fmt::format("there is no material '{}'", name), suggestion, notes);
   return std::nullopt;
+}
+
+// One that every scene knows, built as if its text stood where it is named first. What writes the scene down
+// gets it in place each time: there it could be hidden by the scene's own names.
+std::optional<std::uint32_t> Builder::find_library_material(std::string_view name) {
+  const LibraryMaterial* row = scene_file::find_library_material(name);
+  if (row == nullptr) return std::nullopt;
+  LibraryText& text = library_[std::string(name)];
+  if (text.material && recorder() == nullptr) return text.material;
+  if (text.tree == nullptr) {
+    text.source = std::make_unique<Source>("<library>", "", fmt::format("material {{ {} }}", row->text));
+    text.tree = parse(*text.source, files_.names(), diagnostics_);
+  }
+  const Frame frame;
+  Surroundings around;
+  around.source = text.source.get();
+  around.frame = &frame;
+  text.material = build_inline_material(*std::get<const BlockNode*>(text.tree->items.front()), around);
+  return text.material;
 }
 
 // A material of that name further down at the top of the same file.

@@ -21,6 +21,7 @@
 #include "scene_file/schema.hpp"
 #include "scene_file/shape_store.hpp"
 #include "scene_file/syntax.hpp"
+#include "textures/texel_pyramid.hpp"
 
 namespace raytracer::scene_file {
 
@@ -71,6 +72,13 @@ struct Surroundings {
   bool is_unclosed = false;  ///< the block around lacks its '}': what stands in it may belong elsewhere
 };
 
+/// A texture of the scene.
+struct BuiltTexture {
+  TexturePointer texture;
+  bool depends_on_time = false;
+  std::string json;  ///< as the recorder writes it; empty unless it listens
+};
+
 /// One block on its way to become real. The rows' build functions see the builder through it.
 class BlockContext {
  public:
@@ -85,9 +93,17 @@ class BlockContext {
   bool is_given(std::string_view property) const { return given(property) != nullptr; }
   /// An error at a property, or at the block's header where the property was not given.
   void error(std::string_view property, std::string message, std::string suggestion = {});
+  void warning(std::string_view property, std::string message, std::string suggestion = {});
+  /// Of a property, or of the block's header where the property was not given.
+  Place place_of(std::string_view property) const;
+  /// How the scene's light is computed, which decides what display colours mean.
+  Method method() const;
 
   /// From the block's own space to the world; `spot` is its own middle.
   Transform placed(const Vector3d& spot) const { return around_.to_world * placing_.about(spot); }
+
+  /// Likewise, whatever stands around it: textures lie in the world.
+  Transform own_placing() const { return placing_.about(Vector3d(0)); }
 
   /// Adds what `make()` returns with the block's material; an Error it throws becomes a message at the block.
   template <class Make>
@@ -99,10 +115,23 @@ class BlockContext {
     }
   }
   void add_light(const Light& light);
+  /// What add_shape() makes from here on is made of it, whatever the block says.
+  void use_material(std::uint32_t index) { material_ = index; }
   /// Adds the mesh in a file that `property` names.
-  void add_mesh_file(std::string_view property, const std::string& file, MeshOptions options);
+  void add_mesh_file(std::string_view property, const std::string& file, const MeshOptions& options);
   void build_children();
   std::uint32_t add_material(const Material& material);
+
+  /// The block is a texture: this one.
+  void set_texture(TexturePointer texture);
+  /// What the values of the picture in the file mean where this block stands.
+  TextureMeaning texture_meaning() const;
+  /// The picture in a file that the block names, made ready for a use. Null where it can't be had, which has
+  /// then been reported at `property`.
+  std::shared_ptr<const TexelPyramid> pyramid(std::string_view property, const std::string& file,
+                                              const TexelUse& use);
+  /// Likewise as the file has it.
+  std::shared_ptr<const Picture> picture(std::string_view property, const std::string& file);
 
  private:
   friend class Builder;
@@ -111,10 +140,22 @@ class BlockContext {
   const Given* given(std::string_view property) const;
   bool depends_on_time() const { return around_.depends_on_time || depends_on_time_; }
   void add_shape(std::unique_ptr<Shape> shape);
+  void warn_of_solid_sheet(const Material& material);
   void report_bad_shape(std::string_view problem);
   bool fill_items(void* input);
   bool fill_item(const PropertyNode& property, void* input);
-  bool fill_block(const BlockNode& block);
+  bool fill_block(const BlockNode& block, void* input);
+  /// Nothing where the property has no texture but a value like any other.
+  std::optional<bool> fill_texture_item(const PropertyRow& row, const PropertyNode& property, void* input);
+  bool fill_texture_block(const PropertyRow& row, const BlockNode& block, void* input);
+  bool fill_texture_file(const PropertyRow& row, const PropertyNode& property, void* input);
+  bool fill_expression(const PropertyRow& row, const PropertyNode& property, void* input);
+  const Expression* expression_at_point(const PropertyNode& property);
+  bool store_texture(const PropertyRow& row, const BuiltTexture& texture, void* input);
+  const KindRow* find_texture_row(Span word);
+  template <class Read>
+  auto read_picture_file(std::string_view property, const std::string& file, const Read& read)
+      -> decltype(read(file));
   void note_material();
   bool check_required();
   bool accept(const PropertyRow& row, const Place& place);
@@ -165,6 +206,9 @@ class Builder {
   void replace_let(NameId name, const Value& value, std::string_view text) {
     replaced_lets_[name] = {value, text};
   }
+
+  /// Display colours become linear in `path`. By default the method is `classic`.
+  void set_method(Method method) { method_ = method; }
 
   /// The hasher is told what the scene says; it outlives build().
   void hash_into(SceneHasher& hasher) { hasher_ = &hasher; }
@@ -246,6 +290,13 @@ class Builder {
                      const Surroundings& around);
   std::optional<std::uint32_t> find_material(std::string_view name, const Place& place,
                                              const Surroundings& around);
+  TextureMeaning color_meaning() const;
+  std::optional<BuiltTexture> build_texture(const KindRow& row, const BlockNode& block, std::string_view name,
+                                            const Surroundings& around);
+  void build_named_texture(const KindRow& row, const BlockNode& block, std::string_view name,
+                           const Surroundings& around);
+  const BuiltTexture* find_texture(std::string_view name, const Surroundings& around);
+  std::optional<std::uint32_t> find_library_material(std::string_view name);
   const BlockNode* find_later_material(std::string_view name, const Place& place) const;
   std::optional<std::uint32_t> build_inline_material(const BlockNode& block, const Surroundings& around);
 
@@ -264,6 +315,7 @@ class Builder {
   SceneDraft draft_;
   SceneHasher* hasher_ = nullptr;
   SceneRecorder* recorder_ = nullptr;
+  Method method_ = Method::kClassic;
   ShapeStore store_;
   MeshStore meshes_;
   bool is_trying_ = false;  // a definition that nothing uses
@@ -281,6 +333,17 @@ class Builder {
   std::uint64_t shapes_made_ = 0, lights_made_ = 0;
   bool halted_ = false;
   std::optional<std::uint32_t> last_material_;
+  TexturePointer last_texture_;
+  std::vector<BuiltTexture> named_textures_;  // their names are among the materials': "texture oak"
+  TextureMeaning texture_meaning_ = TextureMeaning::kDisplay;
+
+  // Materials of the library that the scene has named.
+  struct LibraryText {
+    std::unique_ptr<Source> source;
+    std::unique_ptr<SyntaxTree> tree;
+    std::optional<std::uint32_t> material;
+  };
+  std::unordered_map<std::string, LibraryText> library_;
 };
 
 }  // namespace raytracer::scene_file

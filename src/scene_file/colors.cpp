@@ -226,6 +226,18 @@ Vector3d black_body_color(double kelvin) {
   return in_gamut / std::max({in_gamut.x, in_gamut.y, in_gamut.z});
 }
 
+double linear_from_display(double value) {
+  const double size = std::abs(value);
+  const double linear = size <= 0.04045 ? size / 12.92 : std::pow((size + 0.055) / 1.055, 2.4);
+  return std::copysign(linear, value);
+}
+
+double display_from_linear(double value) {
+  const double size = std::abs(value);
+  const double display = size <= 0.0031308 ? size * 12.92 : 1.055 * std::pow(size, 1 / 2.4) - 0.055;
+  return std::copysign(display, value);
+}
+
 Vector3d hexadecimal_color(std::string_view text) {
   std::uint32_t digits = 0;
   std::from_chars(text.data() + 1, text.data() + text.size(), digits, 16);

@@ -21,6 +21,11 @@ Vector3d hsv(double hue_degrees, double saturation, double value);
 /// Wyman, Sloan, Shirley 2013, "Simple analytic approximations to the CIE XYZ color matching functions".
 Vector3d black_body_color(double kelvin);
 
+/// What a display makes of a display value (IEC 61966-2-1, the sRGB curve), continued beyond 0..1.
+double linear_from_display(double value);
+/// And back; of linear values beyond 1 as well.
+double display_from_linear(double value);
+
 /// Of `#rgb` or `#rrggbb`, which must be well-formed.
 Vector3d hexadecimal_color(std::string_view text);
 

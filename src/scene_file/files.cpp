@@ -9,8 +9,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
+#include "core/hash.hpp"
 #include "raytracer/error.hpp"
 #include "scene_file/json_scene.hpp"
 #include "scene_file/parser.hpp"
@@ -156,6 +158,18 @@ std::string Files::seen_from_main(const std::string& file, const Source& source)
 
 void Files::note_read(const std::string& path) {
   if (std::ranges::find(other_files_, path) == other_files_.end()) other_files_.push_back(path);
+}
+
+const SceneHash& Files::content_hash(const std::string& path) {
+  const auto [entry, is_new] = hashes_.try_emplace(path);
+  if (!is_new) return entry->second;
+  Hasher hasher;
+  std::ifstream file(path, std::ios::binary);
+  std::string chunk(std::size_t{1} << 20U, '\0');
+  while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || file.gcount() > 0) {
+    hasher.add(std::string_view(chunk).substr(0, static_cast<std::size_t>(file.gcount())));
+  }
+  return entry->second = hasher.value();
 }
 
 const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {

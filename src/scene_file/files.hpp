@@ -10,6 +10,7 @@
 #include "scene_file/diagnostics.hpp"
 #include "scene_file/source.hpp"
 #include "scene_file/syntax.hpp"
+#include "textures/picture_cache.hpp"
 
 namespace raytracer::scene_file {
 
@@ -37,6 +38,11 @@ class Files {
   /// A file that is no text of the scene has been read.
   void note_read(const std::string& path);
 
+  /// All pictures of the scene, each read once.
+  PictureCache& pictures() { return pictures_; }
+  /// A hash of a file's content.
+  const SceneHash& content_hash(const std::string& path);
+
   /// The tree of a file that a scene at `from` names, parsed when first asked for. Null where it can't be
   /// had, which has then been reported at `from`.
   const SyntaxTree* include(const std::string& file, const Place& from, Diagnostics& diagnostics);
@@ -63,6 +69,8 @@ class Files {
   Names names_;
   std::vector<File> files_;
   std::unordered_map<std::string, const SyntaxTree*> by_path_;
+  std::unordered_map<std::string, SceneHash> hashes_;
+  PictureCache pictures_;
 };
 
 /// The content of a file, or of standard input for "-". Throws Error (kFile) with the reason.

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/noise.hpp"
 #include "core/numeric.hpp"
 #include "scene_file/colors.hpp"
-#include "scene_file/noise.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -238,9 +238,10 @@ FunctionResult hsv_color(Arguments a) {
   }
   return {Value::display_color(hsv(a[0].x(), a[1].x(), a[2].x())), {}};
 }
+constexpr double kColdest = 800, kHottest = 40000;  // kelvin
+
 FunctionResult kelvin_color(Arguments a) {
   if (!a[0].is_number()) return wrong_argument(0, "a number", a[0]);
-  constexpr double kColdest = 800, kHottest = 40000;
   if (!(a[0].x() >= kColdest && a[0].x() <= kHottest)) {
     return problem(
         fmt::format("takes a temperature between {} and {}, found {}", kColdest, kHottest, a[0].x()));
@@ -248,38 +249,57 @@ FunctionResult kelvin_color(Arguments a) {
   return {Value::color(black_body_color(a[0].x())), {}};
 }
 
+// Where a surface asks, what is out of range is brought back into it.
+Vector3d hsv_at_hit(const Vector3d& v) {
+  return hsv(v.x, std::clamp(v.y, 0.0, 1.0), std::clamp(v.z, 0.0, 1.0));
+}
+Vector3d kelvin_at_hit(const Vector3d& v) { return black_body_color(std::clamp(v.x, kColdest, kHottest)); }
+
 constexpr std::size_t kMany = 64;
+using Form = FunctionForm;
+using Step = ExpressionStep;
 
 constexpr FunctionRow kFunctions[] = {
-    {"sin", "x", 1, 1, "Of an angle in degrees.", of_number<sin_degrees>},
-    {"cos", "x", 1, 1, "Of an angle in degrees.", of_number<cos_degrees>},
-    {"tan", "x", 1, 1, "Of an angle in degrees.", tangent},
-    {"asin", "x", 1, 1, "The angle in degrees, from -90 to 90.", inverse_of_share<std::asin>},
-    {"acos", "x", 1, 1, "The angle in degrees, from 0 to 180.", inverse_of_share<std::acos>},
-    {"atan2", "y, x", 2, 2, "The angle of the point (x, y) in degrees, from -180 to 180.", arc_tangent},
-    {"sqrt", "x", 1, 1, "The square root.", square_root},
-    {"exp", "x", 1, 1, "e to the power x.", of_number<std::exp>},
-    {"log", "x", 1, 1, "The natural logarithm.", logarithm},
-    {"pow", "x, y", 2, 2, "x to the power y, as x ^ y.", power},
-    {"abs", "x", 1, 1, "Without its sign.", absolute},
-    {"min", "x, y, …", 2, kMany, "The least.", least},
-    {"max", "x, y, …", 2, kMany, "The greatest.", greatest},
-    {"floor", "x", 1, 1, "The next whole number below.", floor_of},
-    {"ceil", "x", 1, 1, "The next whole number above.", ceil_of},
-    {"round", "x", 1, 1, "The nearest whole number; halves go away from 0.", round_half_away},
-    {"sign", "x", 1, 1, "-1, 0 or 1.", each<sign_of>},
-    {"mod", "x, y", 2, 2, "The rest of x / y with the sign of y.", modulus},
-    {"clamp", "x, low, high", 3, 3, "x, but not below low and not above high.", clamped},
-    {"mix", "a, b, share", 3, 3, "a where share is 0, b where it is 1, in between between.", mixed},
-    {"smoothstep", "from, to, x", 3, 3, "0 below from, 1 above to, a smooth step between.", smooth_step},
-    {"length", "v", 1, 1, "Of a vector.", vector_length},
-    {"normalize", "v", 1, 1, "The vector of length 1 in the same direction.", normalized},
-    {"dot", "v, w", 2, 2, "The scalar product.", dot_product},
-    {"cross", "v, w", 2, 2, "The vector product.", cross_product},
-    {"random", "seed, …", 1, kMany, "In [0, 1); the same seeds give the same number for ever.", random_of},
-    {"noise", "p", 1, 1, "In [-1, 1], smooth over space.", noise_at},
-    {"hsv", "h, s, v", 3, 3, "A colour by hue in degrees, saturation and value.", hsv_color},
-    {"kelvin", "k", 1, 1, "The colour of a glowing body; its largest component is 1.", kelvin_color},
+    {"sin", "x", 1, 1, "Of an angle in degrees.", of_number<sin_degrees>, Form::kNumbers, Step::kSin},
+    {"cos", "x", 1, 1, "Of an angle in degrees.", of_number<cos_degrees>, Form::kNumbers, Step::kCos},
+    {"tan", "x", 1, 1, "Of an angle in degrees.", tangent, Form::kNumbers, Step::kTan},
+    {"asin", "x", 1, 1, "The angle in degrees, from -90 to 90.", inverse_of_share<std::asin>, Form::kNumbers,
+     Step::kAsin},
+    {"acos", "x", 1, 1, "The angle in degrees, from 0 to 180.", inverse_of_share<std::acos>, Form::kNumbers,
+     Step::kAcos},
+    {"atan2", "y, x", 2, 2, "The angle of the point (x, y) in degrees, from -180 to 180.", arc_tangent,
+     Form::kNumbers, Step::kAtan2},
+    {"sqrt", "x", 1, 1, "The square root.", square_root, Form::kNumbers, Step::kSqrt},
+    {"exp", "x", 1, 1, "e to the power x.", of_number<std::exp>, Form::kNumbers, Step::kExp},
+    {"log", "x", 1, 1, "The natural logarithm.", logarithm, Form::kNumbers, Step::kLog},
+    {"pow", "x, y", 2, 2, "x to the power y, as x ^ y.", power, Form::kNumbers, Step::kPower},
+    {"abs", "x", 1, 1, "Without its sign.", absolute, Form::kComponents, Step::kAbs},
+    {"min", "x, y, …", 2, kMany, "The least.", least, Form::kFold, Step::kMin},
+    {"max", "x, y, …", 2, kMany, "The greatest.", greatest, Form::kFold, Step::kMax},
+    {"floor", "x", 1, 1, "The next whole number below.", floor_of, Form::kComponents, Step::kFloor},
+    {"ceil", "x", 1, 1, "The next whole number above.", ceil_of, Form::kComponents, Step::kCeil},
+    {"round", "x", 1, 1, "The nearest whole number; halves go away from 0.", round_half_away,
+     Form::kComponents, Step::kRound},
+    {"sign", "x", 1, 1, "-1, 0 or 1.", each<sign_of>, Form::kComponents, Step::kSign},
+    {"mod", "x, y", 2, 2, "The rest of x / y with the sign of y.", modulus, Form::kComponents, Step::kModulo},
+    {"clamp", "x, low, high", 3, 3, "x, but not below low and not above high.", clamped, Form::kComponents,
+     Step::kClamp},
+    {"mix", "a, b, share", 3, 3, "a where share is 0, b where it is 1, in between between.", mixed,
+     Form::kComponents, Step::kMix},
+    {"smoothstep", "from, to, x", 3, 3, "0 below from, 1 above to, a smooth step between.", smooth_step,
+     Form::kComponents, Step::kSmoothstep},
+    {"length", "v", 1, 1, "Of a vector.", vector_length, Form::kVectorsToNumber, Step::kLength},
+    {"normalize", "v", 1, 1, "The vector of length 1 in the same direction.", normalized,
+     Form::kVectorsToVector, Step::kNormalize},
+    {"dot", "v, w", 2, 2, "The scalar product.", dot_product, Form::kVectorsToNumber, Step::kDot},
+    {"cross", "v, w", 2, 2, "The vector product.", cross_product, Form::kVectorsToVector, Step::kCross},
+    {"random", "seed, …", 1, kMany, "In [0, 1); the same seeds give the same number for ever.", random_of,
+     Form::kSeeds, Step::kRandom},
+    {"noise", "p", 1, 1, "In [-1, 1], smooth over space.", noise_at, Form::kPlace, Step::kNoise},
+    {"hsv", "h, s, v", 3, 3, "A colour by hue in degrees, saturation and value.", hsv_color, Form::kColor,
+     Step::kCall, hsv_at_hit},
+    {"kelvin", "k", 1, 1, "The colour of a glowing body; its largest component is 1.", kelvin_color,
+     Form::kColor, Step::kCall, kelvin_at_hit},
 };
 
 constexpr std::string_view kReserved[] = {"let",  "for",    "from",    "to",   "step",  "if",

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "scene_file/value.hpp"
+#include "textures/expression_texture.hpp"
 
 namespace raytracer::scene_file {
 
@@ -15,12 +16,27 @@ struct FunctionResult {
   std::string problem;  ///< empty where all is well
 };
 
+/// What a function takes and gives where it is run at every hit.
+enum class FunctionForm : std::uint8_t {
+  kNumbers,          ///< numbers to a number
+  kComponents,       ///< numbers or vectors, component by component
+  kFold,             ///< likewise of two at a time, any number of them
+  kVectorsToNumber,  ///< vectors to a number
+  kVectorsToVector,
+  kPlace,  ///< a vector or a number to a number
+  kSeeds,  ///< numbers or vectors, all their components, to a number
+  kColor,  ///< up to three numbers to a colour, by `at_hit`
+};
+
 struct FunctionRow {
   std::string_view name;
   std::string_view parameters;  ///< as help shows them
   std::size_t least_arguments, most_arguments;
   std::string_view help;
   FunctionResult (*call)(std::span<const Value> arguments);  ///< the arguments are all known
+  FunctionForm form = FunctionForm::kNumbers;
+  ExpressionStep step = ExpressionStep::kCopy;  ///< what it is at a hit
+  ExpressionFunction at_hit = nullptr;          ///< of a kColor
 };
 
 std::span<const FunctionRow> all_functions();

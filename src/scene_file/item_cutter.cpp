@@ -40,6 +40,7 @@ std::span<const ItemNode> ItemCutter::cut(std::span<const ItemNode> items) {
     if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
       run_.push_back(as_word((*property)->name));
       run_.insert(run_.end(), (*property)->values.begin(), (*property)->values.end());
+      if ((*property)->body != nullptr) flush_before((*property)->body);
     } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
       run_.push_back(as_word((*block)->kind));
       for (const Span word : (*block)->words) run_.push_back(as_word(word));
@@ -53,6 +54,15 @@ std::span<const ItemNode> ItemCutter::cut(std::span<const ItemNode> items) {
   return arena_.copy(std::span<const ItemNode>(items_));
 }
 
+// Cuts the run that ends here with a property that has a body of its own: `color image "wood.png" { … }`.
+void ItemCutter::flush_before(const BlockNode* own_body) {
+  flush(nullptr);
+  if (items_.empty() || !std::holds_alternative<const PropertyNode*>(items_.back())) return;
+  PropertyNode property = *std::get<const PropertyNode*>(items_.back());
+  property.body = own_body;
+  items_.back() = arena_.make(property);
+}
+
 // Cuts the run that ends here, in front of a body or not.
 void ItemCutter::flush(const BlockNode* body) {
   std::size_t i = 0;
@@ -60,8 +70,10 @@ void ItemCutter::flush(const BlockNode* body) {
     const PropertyRow* row = find_property(row_, text(run_[i]));
     const bool names_material =
         row != nullptr && row->type == PropertyType::kMaterial && row_.has_children && i + 2 == run_.size();
+    const bool names_texture = row != nullptr && row->store_texture != nullptr && i + 2 == run_.size() &&
+                               run_.back().kind == ValueKind::kWord;
     const bool is_unknown = row == nullptr && is_all_words(i) && run_.size() - i <= kMostHeaderWords;
-    if (body != nullptr && (is_unknown || is_header(i, body) || names_material)) {
+    if (body != nullptr && (is_unknown || is_header(i, body) || names_material || names_texture)) {
       add_block(i, *body);
       break;
     }

@@ -30,6 +30,7 @@ class ItemCutter {
   std::string_view text(const ValueNode& value) const { return source_.text(value.span); }
   ValueNode as_word(Span span) const;
   void flush(const BlockNode* body);
+  void flush_before(const BlockNode* own_body);
   std::size_t cut_property(std::size_t first, const PropertyRow* row, const BlockNode* body);
   bool is_all_words(std::size_t first) const;
   bool is_header(std::size_t first, const BlockNode* body) const;

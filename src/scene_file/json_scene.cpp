@@ -367,8 +367,9 @@ ValueNode SceneReader::string_value(const JsonValue& json, const PropertyRow* ro
   value.span = json.span;
   const std::string_view inside = text(json.inside());
   const bool takes_color = row != nullptr && row->type == PropertyType::kColor;
-  const bool takes_word = row != nullptr && (row->type == PropertyType::kWord ||
-                                             row->type == PropertyType::kMaterial || takes_color);
+  const bool takes_word =
+      row != nullptr && (row->type == PropertyType::kWord || row->type == PropertyType::kMaterial ||
+                         row->type == PropertyType::kName || takes_color);
   if (takes_color && inside.starts_with('#')) {
     if (is_color(inside)) {
       value.kind = ValueKind::kColor;

@@ -1,19 +1,23 @@
 // The rows of all that is no shape: settings, lights, material, group.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "raytracer/error.hpp"
 #include "scene_file/builder.hpp"
+#include "scene_file/colors.hpp"
 #include "scene_file/kinds.hpp"
+#include "scene_file/method.hpp"
 
 namespace raytracer::scene_file {
 namespace {
 
 constexpr std::string_view kLength = "scene units";
 constexpr std::string_view kDegrees = "degrees";
-constexpr Range kFieldOfView{0.001, 179, false};
-constexpr Range kBrightness{0, 1e24, false};  // a quadratic light for lengths in the millions is beyond 1e15
+constexpr Range kFieldOfView{0.001, 360, false};
+constexpr double kWidestFlat = 179;  // degrees: beyond, no flat picture shows it
+constexpr Range kExposure{-100, 100, false};
 
 struct ImageInput {
   std::array<int, 2> size{960, 540};
@@ -28,8 +32,20 @@ struct CameraInput {
   std::optional<Vector3d> look_at;
   Vector3d up{0, 1, 0};
   std::optional<double> fov, vertical_fov;
+  Projection projection = Projection::kPerspective;
+  std::optional<double> width;
+  double aperture = 0;
+  std::optional<double> f_number, focal_length, focus;
+  std::string focus_on;
+  int blades = 0;
+  double blade_rotate = 0;
+  std::array<double, 2> shift{0, 0}, tilt{0, 0};
+  double stereo = 0;
+  std::optional<double> iso, shutter_speed;
   double shutter = 0;
 };
+constexpr std::string_view kProjections[] = {"perspective", "orthographic", "fisheye", "panorama",
+                                             "cube_map"};
 constexpr PropertyRow kCamera[] = {
     property<&CameraInput::position>("position", "Where the eye is.").in(kLength),
     property<&CameraInput::look_at>("look_at", "The point in the middle of the picture.")
@@ -45,16 +61,112 @@ constexpr PropertyRow kCamera[] = {
         .in(kDegrees)
         .within(kFieldOfView)
         .or_else("follows from fov"),
+    property<&CameraInput::projection>("projection", "How what is around the eye becomes a flat picture.")
+        .one_of(kProjections),
+    property<&CameraInput::width>("width", "Of what an orthographic camera shows.")
+        .in(kLength)
+        .within(kPositive)
+        .or_else("as wide as fov shows at look_at"),
+    property<&CameraInput::aperture>("aperture", "The radius of the lens; 0 shows everything sharp.")
+        .in(kLength)
+        .within(kNotNegative),
+    property<&CameraInput::focal_length>("focal_length", "With f_number, in place of aperture.")
+        .in(kLength)
+        .within(kPositive)
+        .or_else("none"),
+    property<&CameraInput::f_number>("f_number", "The focal length divided by the lens's diameter.")
+        .within(kPositive)
+        .or_else("none"),
+    property<&CameraInput::focus>("focus", "How far away what is sharp is, along the view.")
+        .in(kLength)
+        .within(kPositive)
+        .or_else("the distance to look_at"),
+    property<&CameraInput::focus_on>("focus_on", "The name of a shape to be sharp, in place of focus.")
+        .as(PropertyType::kName)
+        .or_else("none"),
+    property<&CameraInput::blades>("blades", "The corners of the lens's opening; 0 is round.")
+        .within({0, 100}),
+    property<&CameraInput::blade_rotate>("blade_rotate", "Turns them, counter-clockwise.").in(kDegrees),
+    property<&CameraInput::shift>("shift",
+                                  "Moves the view right and up, in widths and heights of the picture.")
+        .within({-100, 100}),
+    property<&CameraInput::tilt>("tilt", "Turns the plane that is sharp: the right, and the top, away.")
+        .in(kDegrees)
+        .within({-89, 89}),
+    property<&CameraInput::stereo>("stereo", "How far two eyes are apart; the left one's picture is left.")
+        .in(kLength)
+        .within(kNotNegative),
+    property<&CameraInput::iso>("iso",
+                                "Path alone: the film's speed; with it the exposure is a photograph's.")
+        .within({1, 1e7})
+        .or_else("100"),
+    property<&CameraInput::shutter_speed>("shutter_speed", "Likewise: how long the film is exposed.")
+        .in("seconds")
+        .within({1e-6, 1e6})
+        .or_else("1"),
     property<&CameraInput::shutter>("shutter",
                                     "The share of a frame's time that it is open: blurs what moves.")
         .within(kShare),
 };
+// The lens and all else but where it looks; nothing where that contradicts itself, which has been reported.
+std::optional<Optics> optics_of(const CameraInput& in, BlockContext& block) {
+  Optics optics;
+  optics.projection = in.projection;
+  optics.lens_radius = in.aperture;
+  if (in.focal_length) {
+    if (!in.f_number || block.is_given("aperture")) {
+      block.error(in.f_number ? "aperture" : "focal_length",
+                  "a lens has either 'aperture' or 'focal_length' and 'f_number'",
+                  in.f_number ? "remove 'aperture'" : "f_number 2.8");
+      return std::nullopt;
+    }
+    optics.lens_radius = *in.focal_length / (2 * *in.f_number);
+  } else if (in.f_number && !in.iso && !in.shutter_speed) {
+    block.error("f_number", "'f_number' needs 'focal_length' to make a lens, or 'iso' to make an exposure",
+                "focal_length 0.05");
+    return std::nullopt;
+  }
+  optics.blades = in.blades;
+  optics.blade_turn = glm::radians(in.blade_rotate);
+  optics.shift_x = in.shift[0];
+  optics.shift_y = in.shift[1];
+  optics.tilt_x = glm::radians(in.tilt[0]);
+  optics.tilt_y = glm::radians(in.tilt[1]);
+  optics.eye_distance = in.stereo;
+  return optics;
+}
+
+// In stops: none at ISO 100, one second and f/1 (ISO 2720: the exposure is time * speed / f-number^2).
+double exposure_of(const CameraInput& in) {
+  if (!in.iso && !in.shutter_speed) return 0;
+  const double f_number = in.f_number.value_or(1);
+  return std::log2(in.shutter_speed.value_or(1) * in.iso.value_or(100) / 100 / (f_number * f_number));
+}
+
 void build_camera(const CameraInput& in, BlockContext& block) {
   if (in.fov && in.vertical_fov) {
     return block.error("vertical_fov", "a camera has either 'fov' or 'vertical_fov'", "remove one of them");
   }
+  for (const std::string_view word : {"fov", "vertical_fov"}) {
+    const double angle = (word == "fov" ? in.fov : in.vertical_fov).value_or(0);
+    if (angle <= kWidestFlat || in.projection == Projection::kFisheye) continue;
+    return block.error(word,
+                       fmt::format("'{}' must be between 0.001 and {}, found {}", word, kWidestFlat, angle),
+                       "projection fisheye shows more");
+  }
+  if (in.focus && !in.focus_on.empty()) {
+    return block.error("focus_on", "a camera has either 'focus' or 'focus_on'", "remove one of them");
+  }
+  const std::optional<Optics> optics = optics_of(in, block);
+  if (!optics) return;
   const Transform world = block.placed(in.position);
   CameraDraft camera;
+  camera.optics = *optics;
+  camera.width = in.width;
+  camera.focus = in.focus;
+  camera.focus_on = in.focus_on;
+  camera.focus_place = block.place_of("focus_on");
+  camera.exposure = exposure_of(in);
   camera.name = block.name();
   camera.place = block.header();
   camera.position = world.point(in.position);
@@ -78,33 +190,90 @@ void build_camera(const CameraInput& in, BlockContext& block) {
 
 struct RenderInput {
   Method method = Method::kClassic;
-  int samples = 1, bounces = 8;
+  std::optional<int> samples, bounces;
+  Sampling sampling = Sampling::kBoth;
+  double clamp = 0;
   std::optional<double> epsilon;
   int seed = 0;
   ColorValue ambient{Vector3d(0)};
+  double exposure = 0;
+  Tone tone = Tone::kNone;
+  std::optional<ColorValue> white_balance;
 };
-constexpr std::string_view kMethods[] = {"classic"};
+constexpr std::string_view kSamplings[] = {"both", "lights", "materials"};
+constexpr std::string_view kTones[] = {"none", "filmic", "agx", "aces"};
 constexpr PropertyRow kRender[] = {
-    property<&RenderInput::method>("method", "How light is computed.").one_of(kMethods),
-    property<&RenderInput::samples>("samples", "Rays per pixel; more than one smooth the edges.")
-        .within({1, 1'000'000}),
-    property<&RenderInput::bounces>("bounces", "Reflections followed; black after.").within({0, 1000}),
+    property<&RenderInput::method>("method", "How light is computed: the paper's way, or as nature does.")
+        .one_of(kMethodWords),
+    property<&RenderInput::samples>("samples", "Rays per pixel: more smooth edges, and noise in path.")
+        .within({1, 1'000'000})
+        .or_else("1; in path 64"),
+    property<&RenderInput::bounces>("bounces", "Reflections followed, black after; in path all scatterings.")
+        .within({0, 1000})
+        .or_else("8; in path without a limit"),
+    property<&RenderInput::seed>("seed", "Another seed, other sample points.").within({0, 2147483647}),
     property<&RenderInput::epsilon>("epsilon", "How far along the normal shadow and mirror rays start.")
         .in(kLength)
         .within(kNotNegative)
         .or_else("follows the rounding error"),
-    property<&RenderInput::seed>("seed", "Another seed, other sample points.").within({0, 2147483647}),
-    property<&RenderInput::ambient>("ambient", "Light from everywhere; 1 shows surfaces in their own colour.")
+    property<&RenderInput::ambient>(
+        "ambient", "Classic alone: light from everywhere; 1 shows surfaces in their own colour.")
         .within(kBrightness),
+    property<&RenderInput::sampling>("sampling",
+                                     "Path alone: what chooses the directions to look for light in.")
+        .one_of(kSamplings),
+    property<&RenderInput::clamp>(
+        "clamp", "Path alone: the most that a path adds after its first bounce; 0: no limit.")
+        .within(kBrightness),
+    property<&RenderInput::exposure>("exposure", "Path alone: brightens the picture; 1 doubles its light.")
+        .in("stops")
+        .within(kExposure),
+    property<&RenderInput::tone>("tone", "Path alone: the curve that brings bright light into the picture.")
+        .one_of(kTones),
+    property<&RenderInput::white_balance>("white_balance",
+                                          "Path alone: the light that shall look white, or its temperature.")
+        .within(kBrightness)
+        .in("or kelvin")
+        .or_else("1"),
 };
+
+// A grey would balance nothing: one number is a temperature. Nothing where it is none, which has been told.
+std::optional<Vector3d> white_of(const ColorValue& written, BlockContext& block) {
+  constexpr double kColdest = 1000, kHottest = 40000;
+  const Vector3d& c = written.rgb;
+  const bool is_grey = c.x == c.y && c.y == c.z;
+  if (!is_grey && std::min({c.x, c.y, c.z}) > 0) return c;
+  if (c == Vector3d(1)) return c;
+  if (is_grey && c.x >= kColdest && c.x <= kHottest) return black_body_color(c.x);
+  block.error("white_balance",
+              is_grey ? "'white_balance' takes a colour, or a temperature between 1000 and 40000 kelvin"
+                      : "'white_balance' takes the colour of a light, which has some of red, green and blue",
+              "white_balance 3200");
+  return std::nullopt;
+}
+
 void build_render(const RenderInput& in, BlockContext& block) {
   RenderDraft& render = block.draft().render;
+  if (in.white_balance) {
+    const std::optional<Vector3d> white = white_of(*in.white_balance, block);
+    if (!white) return;
+    render.white = *white;
+  }
   render.method = in.method;
   render.samples = in.samples;
   render.bounces = in.bounces;
+  render.sampling = in.sampling;
+  render.clamp = in.clamp;
   render.epsilon = in.epsilon;
   render.seed = in.seed;
   render.ambient = in.ambient;
+  render.exposure = in.exposure;
+  render.tone = in.tone;
+  for (const std::string_view word : {"sampling", "clamp", "exposure", "tone", "white_balance"}) {
+    if (block.is_given(word)) render.particular.push_back({word, Method::kPath, block.place_of(word)});
+  }
+  if (block.is_given("ambient"))
+    render.particular.push_back({"ambient", Method::kClassic, block.place_of("ambient")});
 }
 
 struct BackgroundInput {
@@ -132,125 +301,12 @@ void build_animation(const AnimationInput& in, BlockContext& block) {
   block.draft().fps = in.fps;
 }
 
-struct LightInput {
-  Vector3d position{0};
-  ColorValue color{Vector3d(1)};
-  double intensity = 1000;
-  Falloff falloff = Falloff::kLinear;
-  // of a spot, or of a directional light
-  std::optional<Vector3d> look_at, direction;
-  double angle = 45, soft_edge = 0;
-};
-constexpr std::string_view kFalloffs[] = {"none", "linear", "quadratic"};
-constexpr PropertyRow kLightPosition =
-    property<&LightInput::position>("position", "Where it stands.").in(kLength);
-constexpr PropertyRow kLightColor =
-    property<&LightInput::color>("color", "The colour of its light.").within(kBrightness);
-constexpr PropertyRow kLightIntensity =
-    property<&LightInput::intensity>("intensity",
-                                     "Its strength; 255 shows white as white at distance 1, 2550 at 10.")
-        .within(kBrightness);
-constexpr PropertyRow kLightFalloff =
-    property<&LightInput::falloff>("falloff", "How it fades with distance d: 1, 1/d or 1/d^2.")
-        .one_of(kFalloffs);
-constexpr PropertyRow kLightDirection =
-    property<&LightInput::direction>("direction", "The way the light travels, of any length.")
-        .or_else("0 -1 0");
-
-constexpr PropertyRow kPointLight[] = {kLightPosition, kLightColor, kLightIntensity, kLightFalloff};
-constexpr PropertyRow kDirectionalLight[] = {kLightDirection, kLightColor, kLightIntensity};
-constexpr PropertyRow kSpotLight[] = {
-    kLightPosition,
-    property<&LightInput::look_at>("look_at", "The point it shines at, in place of direction.")
-        .in(kLength)
-        .or_else("along direction"),
-    kLightDirection,
-    property<&LightInput::angle>("angle", "The full width of its cone.").in(kDegrees).within({0, 360, true}),
-    property<&LightInput::soft_edge>("soft_edge",
-                                     "Over how much of the cone's angle it fades out, from the rim inwards.")
-        .within(kShare),
-    kLightColor,
-    kLightIntensity,
-    kLightFalloff,
-};
-
-Light make_light(const LightInput& in, Light::Kind kind) {
-  Light light;
-  light.kind = kind;
-  light.falloff = in.falloff;
-  light.lambda = Color3f(in.intensity * in.color.rgb);
-  return light;
-}
-
-void build_point_light(const LightInput& in, BlockContext& block) {
-  Light light = make_light(in, Light::Kind::kPoint);
-  light.position = Vector3f(block.placed(in.position).point(in.position));
-  block.add_light(light);
-}
-
-// The way a light points, in the world; nothing where that is no direction, which has then been reported.
-std::optional<Vector3f> world_direction(const LightInput& in, BlockContext& block) {
-  const bool aims = in.look_at.has_value();
-  const Vector3d direction = aims ? *in.look_at - in.position : in.direction.value_or(Vector3d(0, -1, 0));
-  if (glm::length(direction) > 0) {
-    return Vector3f(glm::normalize(block.placed(in.position).vector(direction)));
-  }
-  block.error(aims ? "look_at" : "direction",
-              aims ? "the light shines at the point where it stands" : "'direction' has no length",
-              aims ? "'position' and 'look_at' must differ" : "direction 0 -1 0");
-  return std::nullopt;
-}
-
-void build_directional_light(const LightInput& in, BlockContext& block) {
-  Light light = make_light(in, Light::Kind::kDirectional);
-  const std::optional<Vector3f> direction = world_direction(in, block);
-  if (!direction) return;
-  light.direction = *direction;
-  block.add_light(light);
-}
-
-void build_spot_light(const LightInput& in, BlockContext& block) {
-  if (in.look_at && in.direction) {
-    return block.error("direction", "a spot has either 'look_at' or 'direction'", "remove one of them");
-  }
-  Light light = make_light(in, Light::Kind::kSpot);
-  light.position = Vector3f(block.placed(in.position).point(in.position));
-  const std::optional<Vector3f> direction = world_direction(in, block);
-  if (!direction) return;
-  light.direction = *direction;
-  const double half_angle = glm::radians(in.angle / 2);
-  light.cos_outer = static_cast<float>(std::cos(half_angle));
-  light.cos_inner = static_cast<float>(std::cos(half_angle * (1 - in.soft_edge)));
-  block.add_light(light);
-}
-
-struct MaterialInput {
-  ColorValue color{Vector3d(0.8)};
-  double shininess = 0;
-};
-constexpr PropertyRow kMaterial[] = {
-    property<&MaterialInput::color>("color", "The share of light that it returns.").within(kShare),
-    property<&MaterialInput::shininess>("shininess", "0 is matt, 1 all mirror, between is partly both."),
-};
-void build_material(const MaterialInput& in, BlockContext& block) {
-  Material material;
-  material.color = Color3f(in.color.rgb);
-  material.shininess = static_cast<float>(in.shininess);
-  block.add_material(material);
-}
-
 struct GroupInput {};
 void build_group(const GroupInput&, BlockContext& block) { block.build_children(); }
 
 KindRow setting(KindRow row, Placing placing = Placing::kNone) {
   row.block_class = BlockClass::kSetting;
   row.placing = placing;
-  return row;
-}
-
-KindRow light(KindRow row, std::string_view variant) {
-  row.variant = variant;
-  row.placing = Placing::kRigid;
   return row;
 }
 
@@ -266,28 +322,6 @@ std::span<const KindRow> setting_kinds() {
           kind<BackgroundInput, build_background>("background", "What is behind everything.", kBackground)),
       setting(kind<AnimationInput, build_animation>("animation", "How much time there is.", kAnimation)),
   };
-  return rows;
-}
-
-std::span<const KindRow> light_kinds() {
-  static const KindRow rows[] = {
-      light(kind<LightInput, build_point_light>("light", "A point that shines all around.", kPointLight), ""),
-      light(kind<LightInput, build_point_light>("light", "The same, named in full.", kPointLight), "point"),
-      light(kind<LightInput, build_directional_light>("light", "Parallel light from far away.",
-                                                      kDirectionalLight),
-            "directional"),
-      light(kind<LightInput, build_spot_light>("light", "A point that shines within a cone.", kSpotLight),
-            "spot"),
-  };
-  return rows;
-}
-
-std::span<const KindRow> material_kinds() {
-  static const KindRow rows[] = {[] {
-    KindRow row = kind<MaterialInput, build_material>("material", "What a surface is made of.", kMaterial);
-    row.block_class = BlockClass::kMaterial;
-    return row;
-  }()};
   return rows;
 }
 

@@ -149,20 +149,26 @@ KindRow shape(KindRow row) {
   return row;
 }
 
+KindRow sheet(KindRow row) {
+  row = shape(std::move(row));
+  row.is_sheet = true;
+  return row;
+}
+
 }  // namespace
 
 std::span<const KindRow> shape_kinds() {
   static const KindRow rows[] = {
       shape(kind<SphereInput, build_sphere>("sphere", "A ball.", kSphere)),
-      shape(kind<QuadInput, build_quad>(
+      sheet(kind<QuadInput, build_quad>(
           "quad", "A flat parallelogram between two edge vectors; normal along width x height.", kQuad)),
       shape(kind<CubeInput, build_cube>("cube", "A box.", kCube)),
       shape(kind<PlaneInput, build_plane>("plane", "An endless plane.", kPlane)),
-      shape(kind<DiskInput, build_disk>("disk", "A flat round disk.", kDisk)),
+      sheet(kind<DiskInput, build_disk>("disk", "A flat round disk.", kDisk)),
       shape(kind<CylinderInput, build_cylinder>("cylinder", "A cylinder, closed unless open.", kCylinder)),
       shape(kind<ConeInput, build_cone>("cone", "A cone or its stump, closed unless open.", kCone)),
       shape(kind<TorusInput, build_torus>("torus", "A ring.", kTorus)),
-      shape(kind<TriangleInput, build_triangle>("triangle", "A flat triangle.", kTriangle)),
+      sheet(kind<TriangleInput, build_triangle>("triangle", "A flat triangle.", kTriangle)),
   };
   return rows;
 }

@@ -14,6 +14,7 @@
 #include "scene_file/builder.hpp"
 #include "scene_file/files.hpp"
 #include "scene_file/finish.hpp"
+#include "scene_file/method.hpp"
 #include "scene_file/settings.hpp"
 
 namespace raytracer {
@@ -24,6 +25,11 @@ using scene_file::Diagnostics;
 using scene_file::Files;
 using scene_file::Moment;
 
+// The method of an evaluated scene.
+Method method_of(const LoadOptions& options, Builder& builder) {
+  return options.method.value_or(builder.draft().render.method);
+}
+
 // What evaluating a scene once more, for another time, needs.
 struct SceneText {
   LoadOptions options;
@@ -32,6 +38,7 @@ struct SceneText {
   const scene_file::SyntaxTree* tree = nullptr;
   scene_file::KeptShapes kept;
   double fps = 24;
+  Method method = Method::kClassic;  // as the latest evaluation had it
 };
 
 // The scene at the times that it is asked for; the first one has been evaluated already.
@@ -65,7 +72,7 @@ class ScenesOverTime {
     Builder builder(*text_->files, text_->options.limits, moment_of(time), text_->kept, diagnostics);
     scene_file::SceneRecorder recorder;
     builder.record_into(recorder);
-    build(builder, time, diagnostics);
+    build(builder, time, diagnostics);  // the same text for any method
     for (const scene_file::CameraDraft& camera : builder.draft().cameras) {
       if (camera.shutter == 0) continue;
       diagnostics.error(camera.place, "with an open shutter a picture shows more than one moment",
@@ -116,6 +123,10 @@ class ScenesOverTime {
   void build(Builder& builder, double time, Diagnostics& diagnostics) const {
     scene_file::apply_settings(text_->options.settings, *text_->files, builder);
     builder.build(*text_->tree);
+    require_no_errors(time, diagnostics);
+  }
+
+  static void require_no_errors(double time, Diagnostics& diagnostics) {
     if (!diagnostics.has_errors()) return;
     throw Error(ErrorKind::kScene,
                 fmt::format("the scene is wrong at t = {}:\n{}", time, all_messages(diagnostics)));
@@ -124,14 +135,22 @@ class ScenesOverTime {
   Evaluated evaluate(double time, bool with_moment) const {
     Diagnostics diagnostics;
     Builder builder(*text_->files, text_->options.limits, moment_of(time), text_->kept, diagnostics);
+    builder.set_method(text_->method);
     scene_file::SceneHasher hasher;
     if (with_moment) builder.hash_into(hasher);
     build(builder, time, diagnostics);
+    const Method method = method_of(text_->options, builder);
+    if (method != text_->method) {  // an `if` has chosen another one: the colours mean something else
+      text_->method = method;
+      text_->kept = {};
+      return evaluate(time, with_moment);
+    }
     builder.store_shapes();
     Evaluated evaluated;
     evaluated.time = time;
     const RenderSettings settings =
         scene_file::finish(builder.draft(), text_->options, text_->name, depends_on_time_, diagnostics);
+    require_no_errors(time, diagnostics);
     if (with_moment) evaluated.moment = {settings, hasher.finish(settings, text_->options.camera)};
     evaluated.description = std::move(builder.draft().scene);
     return evaluated;
@@ -142,6 +161,24 @@ class ScenesOverTime {
   Evaluated latest_;
   std::shared_ptr<const Scene> only_scene_;  // of a scene that does not depend on time
 };
+
+// Evaluates the scene for the time 0. Display colours depend on the method, and where it isn't what the text
+// looked like (another file says so, or an `if`), once more.
+std::unique_ptr<Builder> build_first(SceneText& scene_text, const Limits& limits, Diagnostics& diagnostics) {
+  scene_text.method = scene_text.options.method.value_or(scene_file::method_in(*scene_text.tree));
+  for (;;) {
+    auto builder =
+        std::make_unique<Builder>(*scene_text.files, limits, Moment{}, scene_text.kept, diagnostics);
+    builder->set_method(scene_text.method);
+    scene_file::apply_settings(scene_text.options.settings, *scene_text.files, *builder);
+    builder->build(*scene_text.tree);
+    const Method method = method_of(scene_text.options, *builder);
+    if (diagnostics.has_errors() || method == scene_text.method) return builder;
+    scene_text.method = method;
+    scene_text.kept = {};
+    diagnostics = Diagnostics();  // the warnings come again
+  }
+}
 
 LoadedScene load(std::string text, const std::string& name, const std::string& path,
                  const LoadOptions& options) {
@@ -159,9 +196,8 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
   // A text that could not be read whole is run for the mistakes in what could; its loops may lack their ends.
   constexpr std::uint64_t kStepsOfBadText = 1'000'000;
   if (diagnostics.has_errors()) limits.steps = std::min(limits.steps, kStepsOfBadText);
-  Builder builder(files, limits, Moment{}, scene_text->kept, diagnostics);
-  scene_file::apply_settings(options.settings, files, builder);
-  builder.build(*scene_text->tree);
+  const std::unique_ptr<Builder> built = build_first(*scene_text, limits, diagnostics);
+  Builder& builder = *built;
   loaded.files_read = files.read_paths();
   // No warning follows from an error.
   if (!diagnostics.has_errors()) {
@@ -171,6 +207,9 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
     scene_file::SceneDraft& draft = builder.draft();
     loaded.depends_on_time = builder.evaluator().uses_time();
     loaded.settings = scene_file::finish(draft, options, name, loaded.depends_on_time, diagnostics);
+  }
+  if (!diagnostics.has_errors()) {
+    scene_file::SceneDraft& draft = builder.draft();
     loaded.shapes = builder.shapes_made();
     loaded.animation = {draft.duration, draft.fps};
     scene_text->fps = draft.fps;

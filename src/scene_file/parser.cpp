@@ -59,6 +59,7 @@ class Parser {
   void parse_bad_block(std::vector<ItemNode>& items);
   int words_before_brace() const;
   const BlockNode* parse_block(int words);
+  void take_body(BlockNode& block, Context context);
   const PropertyNode* parse_property(Context context);
   bool begins_next_property(Context context) const;
   const IncludeNode* parse_include();
@@ -216,11 +217,17 @@ const BlockNode* Parser::parse_block(int words) {
   }
   block.words = tree_->arena.copy(std::span<const Span>(more));
   tokens_.advance();
-  block.items = parse_body(block.kind, tokens_.text(block.kind));
+  // In `color checker { … }` stand a texture's properties.
+  const bool is_texture = more.size() == 1 && find_texture_kind(tokens_.text(more[0])) != nullptr;
+  take_body(block, is_texture ? kTextureKind : tokens_.text(block.kind));
+  return tree_->arena.make(block);
+}
+
+void Parser::take_body(BlockNode& block, Context context) {
+  block.items = parse_body(block.kind, context);
   block.end = tokens_.previous_end();
   block.is_closed =
       block.end > block.kind.end && tokens_.text({block.end - 1, block.end}) == "}" && !tokens_ended_open_;
-  return tree_->arena.make(block);
 }
 
 // Whether the word that follows a property's name is not its value but the next property: `radius center 0 1
@@ -299,6 +306,17 @@ const PropertyNode* Parser::parse_property(Context context) {
   }
   tokens_.mute(false);
   property.values = tree_->arena.copy(std::span<const ValueNode>(values));
+  // `color image "wood.png" { … }`
+  const bool names_file =
+      values.size() == 2 && values[0].kind == ValueKind::kWord && values[1].kind == ValueKind::kString;
+  if (names_file && tokens_.is(TokenType::kOpenBrace)) {
+    BlockNode block;
+    block.kind = property.name;
+    block.kind_name = property.name_id;
+    block.words = tree_->arena.copy(std::span<const Span>(&values[0].span, 1));
+    take_body(block, kTextureKind);
+    property.body = tree_->arena.make(block);
+  }
   return tree_->arena.make(property);
 }
 

@@ -4,7 +4,7 @@ namespace raytracer::scene_file {
 namespace {
 
 // What stands between the properties, so that no two scenes make the same sequence.
-constexpr std::uint64_t kBegin = 1, kEnd = 2, kProperty = 3;
+constexpr std::uint64_t kBegin = 1, kEnd = 2, kProperty = 3, kContent = 4;
 
 // More frames of the same film leave those that are there as they are.
 bool goes_into_pixels(const KindRow& kind) { return kind.name != "animation"; }
@@ -36,6 +36,18 @@ void SceneHasher::add(const PropertyRow& property, const Argument& argument) {
   hasher_.add(std::uint64_t{argument.index} << 1U | (argument.is_display ? 1U : 0U));
 }
 
+void SceneHasher::number_texture(const void* texture) {
+  texture_numbers_[texture] = texture_numbers_.size() + 1;
+}
+
+void SceneHasher::add_texture(std::string_view property, const void* texture) {
+  if (!is_seen_) return;
+  hasher_.add(kContent);
+  hasher_.add(property);
+  const auto known = texture_numbers_.find(texture);
+  hasher_.add(known == texture_numbers_.end() ? 0 : known->second);
+}
+
 void SceneHasher::add_content(const SceneHash& content) {
   for (const std::uint64_t word : content) hasher_.add(word);
 }
@@ -54,6 +66,13 @@ SceneHash SceneHasher::finish(const RenderSettings& settings, std::string_view c
     hasher_.add(static_cast<std::uint64_t>(number));
   }
   hasher_.add(std::uint64_t{settings.seed});
+  hasher_.add(static_cast<std::uint64_t>(settings.method));
+  hasher_.add(static_cast<std::uint64_t>(settings.sampling));
+  hasher_.add(double{settings.clamp_indirect});
+  const Development& development = settings.development;
+  hasher_.add(double{development.exposure});
+  hasher_.add(static_cast<std::uint64_t>(development.tone));
+  for (int i = 0; i < 3; ++i) hasher_.add(double{development.white[i]});
   hasher_.add(camera);
   return hasher_.value();
 }

@@ -22,6 +22,10 @@ class SceneHasher {
   void begin_block(const KindRow& kind, std::string_view name, const Transform& to_world,
                    std::uint32_t material);
   void add(const PropertyRow& property, const Argument& argument);
+  /// A texture with a name has been made.
+  void number_texture(const void* texture);
+  /// A property of the innermost block has a texture: one with a name, or the one whose block has just ended.
+  void add_texture(std::string_view property, const void* texture);
   /// What stands in a file that is no scene's text, as a hash.
   void add_content(const SceneHash& content);
   /// `material` is the block's own.
@@ -37,6 +41,7 @@ class SceneHasher {
   Hasher hasher_;
   // The scene's numbers of materials depend on what was built at earlier moments; these do not.
   std::unordered_map<std::uint32_t, std::uint64_t> material_numbers_;
+  std::unordered_map<const void*, std::uint64_t> texture_numbers_;
   bool is_seen_ = true;  // whether the block goes into the pixels
 };
 

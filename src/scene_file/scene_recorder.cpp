@@ -39,8 +39,11 @@ std::string value_text(const PropertyRow& row, const Argument& argument) {
     case PropertyType::kBoolean:
       return n[0] != 0 ? "true" : "false";
     case PropertyType::kString:
+    case PropertyType::kName:
     case PropertyType::kFile:
       return json_quoted(argument.text);
+    case PropertyType::kStop:
+      return fmt::format("[{}, {}]", n[3], color_text(argument));
     case PropertyType::kWord:
       return json_quoted(row.words[argument.index]);
     case PropertyType::kColor:
@@ -62,6 +65,12 @@ void SceneRecorder::begin_block(const KindRow& kind, std::string_view name) {
   Node node;
   node.kind = kind.name;
   node.is_value = kind.block_class == BlockClass::kMaterial && name.empty();
+  node.is_texture = kind.block_class == BlockClass::kTexture;
+  if (node.is_texture) {
+    node.properties = fmt::format("\"texture\": {}", json_quoted(kind.variant));
+    open_.push_back(std::move(node));
+    return;
+  }
   if (!name.empty()) node.name = unique(kind.name, name);
   if (!kind.variant.empty()) node.properties = fmt::format(", \"variant\": {}", json_quoted(kind.variant));
   open_.push_back(std::move(node));
@@ -71,7 +80,9 @@ void SceneRecorder::end_block() {
   Node node = std::move(open_.back());
   open_.pop_back();
   Node& parent = open_.back();
-  if (node.is_value) {
+  if (node.is_texture) {
+    texture_ = fmt::format("{{{}{}}}", node.properties, transforms_text(node));
+  } else if (node.is_value) {
     const std::string_view properties = node.properties;
     parent.properties +=
         fmt::format(", \"material\": {{{}}}", properties.substr(std::min<std::size_t>(2, properties.size())));
@@ -88,6 +99,10 @@ void SceneRecorder::add(const PropertyRow& property, const Argument& argument) {
   } else {
     node.properties += ", " + text;
   }
+}
+
+void SceneRecorder::add(const PropertyRow& property, std::string_view texture) {
+  open_.back().properties += fmt::format(", {}: {}", json_quoted(property.name), texture);
 }
 
 void SceneRecorder::use_material(std::uint32_t index) {
@@ -147,12 +162,16 @@ std::string SceneRecorder::unique(std::string_view kind, std::string_view name) 
   return result;
 }
 
+std::string SceneRecorder::transforms_text(const Node& node) {
+  if (node.transforms.empty()) return {};
+  return fmt::format(", \"transforms\": [{}]", node.transforms.substr(2));
+}
+
 std::string SceneRecorder::line_of(const Node& node) {
   std::string line = fmt::format("{{\"kind\": {}", json_quoted(node.kind));
   if (!node.name.empty()) line += fmt::format(", \"name\": {}", json_quoted(node.name));
   line += node.properties;
-  if (!node.transforms.empty()) line += fmt::format(", \"transforms\": [{}]", node.transforms.substr(2));
-  return line;
+  return line + transforms_text(node);
 }
 
 void SceneRecorder::append(std::span<const Node> nodes, std::size_t level, bool& is_first, std::string& out) {

@@ -58,6 +58,10 @@ class SceneRecorder {
   bool is_listening() const { return !muted_; }
   /// A property of the innermost block.
   void add(const PropertyRow& property, const Argument& argument);
+  /// A property of the innermost block whose value is a texture, as take_texture() gave it.
+  void add(const PropertyRow& property, std::string_view texture);
+  /// The texture whose block has just ended.
+  std::string take_texture() { return std::move(texture_); }
   /// The innermost block refers to a material with a name.
   void use_material(std::uint32_t index);
   /// The innermost block is a material with a name, which the scene knows by this number.
@@ -78,8 +82,9 @@ class SceneRecorder {
     std::string transforms;  ///< `, {"rotate": [0, 30, 0]}`
     std::vector<Node> children;
     std::shared_ptr<std::vector<Node>>
-        definitions;        ///< where a definition stands: one for each set of arguments
-    bool is_value = false;  ///< a material in place, the value of a property
+        definitions;          ///< where a definition stands: one for each set of arguments
+    bool is_value = false;    ///< a material in place, the value of a property
+    bool is_texture = false;  ///< likewise
   };
   struct Definition {
     std::string name;
@@ -95,6 +100,7 @@ class SceneRecorder {
   const std::string& name_of(const void* definition, const std::vector<Value>& arguments);
   std::string unique(std::string_view kind, std::string_view name);
   static std::string line_of(const Node& node);
+  static std::string transforms_text(const Node& node);
   static void append(std::span<const Node> nodes, std::size_t level, bool& is_first, std::string& out);
 
   std::vector<Node> open_{Node{}};                          // from the scene to the innermost block
@@ -103,6 +109,7 @@ class SceneRecorder {
   std::unordered_map<std::uint32_t, std::string> materials_;
   std::unordered_map<std::string, std::size_t> numbers_;  // the last ones given to names
   std::unordered_set<std::string> taken_;
+  std::string texture_;
   bool muted_ = false;
 };
 

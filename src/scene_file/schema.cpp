@@ -48,7 +48,8 @@ std::span<const KindRow> all_kinds() {
   static const std::vector<KindRow> rows = [] {
     std::vector<KindRow> all;
     for (const std::span<const KindRow> table :
-         {setting_kinds(), light_kinds(), material_kinds(), group_kinds(), shape_kinds(), mesh_kinds()}) {
+         {setting_kinds(), sky_kinds(), light_kinds(), material_kinds(), texture_kinds(), group_kinds(), shape_kinds(),
+          mesh_kinds()}) {
       all.insert(all.end(), table.begin(), table.end());
     }
     return all;
@@ -81,15 +82,18 @@ const PropertyRow* find_property(const KindRow& kind, std::string_view name) {
   return kind.placing == Placing::kNone ? nullptr : find_in(kTransformRows);
 }
 
+const KindRow* find_texture_kind(std::string_view name) { return find_kind(kTextureKind, name); }
+
 bool is_property_of(std::string_view kind, std::string_view property) {
   // Of a definition nobody knows the parameters here, but it is placed and made of a material as a group is.
-  if (!kind.empty() && find_kind(kind) == nullptr) kind = "group";
+  if (!kind.empty() && find_kind(kind) == nullptr && !may_have_variant(kind)) kind = "group";
   return std::ranges::any_of(all_kinds(), [&](const KindRow& row) {
     return row.name == kind && find_property(row, property) != nullptr;
   });
 }
 
 std::string describe_type(const PropertyRow& row) {
+  if (row.is_texture_only) return "a texture";
   switch (row.type) {
     case PropertyType::kNumber:
       return "a number";
@@ -107,8 +111,14 @@ std::string describe_type(const PropertyRow& row) {
       return "one number or three";
     case PropertyType::kPixels:
       return "two whole numbers";
+    case PropertyType::kPair:
+      return "two numbers";
     case PropertyType::kColor:
       return "a colour";
+    case PropertyType::kName:
+      return "a name";
+    case PropertyType::kStop:
+      return "a number and a colour";
     case PropertyType::kWord:
       return row.words.size() == 1 ? std::string(row.words[0])
                                    : fmt::format("one of {}", fmt::join(row.words, ", "));
@@ -125,6 +135,7 @@ std::string describe_type(const PropertyRow& row) {
 }
 
 std::string example_value(const PropertyRow& row) {
+  if (row.is_texture_only) return "noise { }";
   switch (row.type) {
     case PropertyType::kNumber:
     case PropertyType::kInteger:
@@ -143,6 +154,12 @@ std::string example_value(const PropertyRow& row) {
       return "1";
     case PropertyType::kPixels:
       return "960 540";
+    case PropertyType::kPair:
+      return "2 2";
+    case PropertyType::kName:
+      return "ball";
+    case PropertyType::kStop:
+      return "0.5 red";
     case PropertyType::kColor:
       return "0.9 0.4 0.1";
     case PropertyType::kWord:

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "raytracer/texture.hpp"
 #include "raytracer/vector3f.hpp"
 
 namespace raytracer::scene_file {
@@ -28,9 +29,12 @@ enum class PropertyType : std::uint8_t {
   kVector,  ///< three numbers
   kSize,    ///< one number for all axes, or three
   kPixels,  ///< two whole numbers
+  kPair,    ///< two numbers
   kColor,
   kWord,      ///< one of a list of words
   kMaterial,  ///< the name of a material, or one in place
+  kName,      ///< a bare word: of a shape
+  kStop,      ///< a number and a colour
   kAxisAngle,
   kMatrix,
   kNumbers,  ///< any number of numbers, vectors among them
@@ -46,6 +50,10 @@ inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{0, 1e18, true};
 inline constexpr Range kNotNegative{0, 1e18, false};
 inline constexpr Range kShare{0, 1, false};
+/// Of what shines. A quadratic light for lengths in the millions is beyond 1e15, and the product of two such
+/// numbers must stay well within what single precision holds.
+inline constexpr double kBrightest = 1e32;
+inline constexpr Range kBrightness{0, kBrightest, false};
 
 /// A value that fits its property: what the rows store away.
 struct Argument {
@@ -57,8 +65,8 @@ struct Argument {
   bool depends_on_time = false;
 };
 
-/// A colour as written; 1 is white. Display colours (#rrggbb, names) are the same numbers in `method
-/// classic`.
+/// A colour in the numbers that the scene's method computes with; 1 is white. What was written as a display
+/// colour (#rrggbb, a name) has become linear in `path`, and is as it was in `classic`.
 struct ColorValue {
   Vector3d rgb{1};
 };
@@ -66,6 +74,18 @@ struct ColorValue {
 /// A material of the scene by its index.
 struct MaterialIndex {
   std::uint32_t index = 0;
+};
+
+/// A colour of a ramp, and where it stands.
+struct StopValue {
+  double at = 0;
+  Vector3d rgb{1};
+};
+
+/// A colour that a texture may take the place of.
+struct ColorOrTexture {
+  Vector3d rgb{1};
+  TexturePointer texture;
 };
 
 /// The name of a file as written.
@@ -83,7 +103,10 @@ struct PropertyRow {
   std::string_view default_text;            ///< said instead of the value in the input struct
   bool required = false;
   bool is_placing = false;  ///< a transform word
+  bool is_repeatable = false;
+  bool is_texture_only = false;  ///< the same value everywhere makes no sense
   void (*store)(void* input, const Argument& argument) = nullptr;
+  void (*store_texture)(void* input, const TexturePointer& texture) = nullptr;  ///< null: it takes none
   std::string (*default_value)(const void* input,
                                const PropertyRow& row) = nullptr;  ///< as it would be written
 
@@ -106,6 +129,10 @@ struct PropertyRow {
     return with(&PropertyRow::default_text, said);
   }
   constexpr PropertyRow as(PropertyType new_type) const { return with(&PropertyRow::type, new_type); }
+  constexpr PropertyRow for_textures_alone() const { return with(&PropertyRow::is_texture_only, true); }
+  /// A texture may stand in its place, for which `Textures` of the input struct has the member `Texture`.
+  template <auto Textures, auto Texture>
+  constexpr PropertyRow or_texture() const;
   constexpr PropertyRow must_be_given() const { return with(&PropertyRow::required, true); }
 };
 
@@ -116,6 +143,7 @@ enum class Placing : std::uint8_t { kNone, kRigid, kAffine };
 enum class BlockClass : std::uint8_t {
   kSetting,   ///< at the top of the scene, at most once unless it has a name
   kMaterial,  ///< anywhere; with a name it can be used later
+  kTexture,   ///< likewise
   kObject,    ///< at the top and in groups
 };
 
@@ -126,8 +154,11 @@ struct KindRow {
   Placing placing = Placing::kNone;
   bool takes_material = false;
   bool has_children = false;
+  bool is_sheet = false;  ///< a shape that encloses nothing, whatever its properties
   std::string_view help;
   std::span<const PropertyRow> properties;
+  std::span<const std::string_view>
+      words_to_come;  ///< properties that the language knows and nothing shows yet
   void (*build)(BlockContext& context) = nullptr;
   std::string (*default_of)(const PropertyRow& row) = nullptr;
 };
@@ -143,6 +174,12 @@ const PropertyRow& material_property();
 /// The kind of that name; for kinds with variants the one of that variant. Null where there is none.
 const KindRow* find_kind(std::string_view name, std::string_view variant = {});
 bool may_have_variant(std::string_view kind);
+
+/// What the kinds of textures are variants of: `texture checker oak { … }`.
+inline constexpr std::string_view kTextureKind = "texture";
+/// The kind of texture of that name, as in `color checker { … }`; null where there is none.
+const KindRow* find_texture_kind(std::string_view name);
+
 /// A property of the kind, its common ones included; null where it has none of that name.
 const PropertyRow* find_property(const KindRow& kind, std::string_view name);
 /// Whether any variant of the kind has a property of that name.
@@ -191,6 +228,9 @@ constexpr PropertyType property_type() {
   if constexpr (std::is_same_v<T, std::vector<double>>) return PropertyType::kNumbers;
   if constexpr (std::is_same_v<T, Vector3d>) return PropertyType::kVector;
   if constexpr (std::is_same_v<T, std::array<int, 2>>) return PropertyType::kPixels;
+  if constexpr (std::is_same_v<T, std::array<double, 2>>) return PropertyType::kPair;
+  if constexpr (std::is_same_v<T, std::vector<StopValue>>) return PropertyType::kStop;
+  if constexpr (std::is_same_v<T, ColorOrTexture>) return PropertyType::kColor;
   if constexpr (std::is_same_v<T, ColorValue>) return PropertyType::kColor;
   if constexpr (std::is_same_v<T, MaterialIndex>) return PropertyType::kMaterial;
   if constexpr (std::is_enum_v<T>) return PropertyType::kWord;
@@ -208,6 +248,9 @@ T from_argument(const Argument& a) {
   if constexpr (std::is_same_v<T, Vector3d>) return {n[0], n[1], n[2]};
   if constexpr (std::is_same_v<T, std::array<int, 2>>)
     return {static_cast<int>(n[0]), static_cast<int>(n[1])};
+  if constexpr (std::is_same_v<T, std::array<double, 2>>) return {n[0], n[1]};
+  if constexpr (std::is_same_v<T, StopValue>) return {n[3], {n[0], n[1], n[2]}};
+  if constexpr (std::is_same_v<T, ColorOrTexture>) return {{n[0], n[1], n[2]}, nullptr};
   if constexpr (std::is_same_v<T, ColorValue>) return {{n[0], n[1], n[2]}};
   if constexpr (std::is_same_v<T, MaterialIndex>) return {a.index};
   if constexpr (std::is_enum_v<T>) return static_cast<T>(a.index);
@@ -225,9 +268,9 @@ std::string to_text(const T& value, const PropertyRow& row) {
     if (row.type == PropertyType::kSize && value.x == value.y && value.y == value.z)
       return number_text(value.x);
     return number_text(value.x) + ' ' + number_text(value.y) + ' ' + number_text(value.z);
-  } else if constexpr (std::is_same_v<T, std::array<int, 2>>) {
+  } else if constexpr (std::is_same_v<T, std::array<int, 2>> || std::is_same_v<T, std::array<double, 2>>) {
     return number_text(value[0]) + ' ' + number_text(value[1]);
-  } else if constexpr (std::is_same_v<T, ColorValue>) {
+  } else if constexpr (std::is_same_v<T, ColorValue> || std::is_same_v<T, ColorOrTexture>) {
     if (value.rgb.x == value.rgb.y && value.rgb.y == value.rgb.z) return number_text(value.rgb.x);
     return number_text(value.rgb.x) + ' ' + number_text(value.rgb.y) + ' ' + number_text(value.rgb.z);
   } else if constexpr (std::is_enum_v<T>) {
@@ -250,12 +293,32 @@ constexpr PropertyRow property(std::string_view name, std::string_view help) {
   row.help = help;
   row.type = detail::property_type<Field>();
   row.store = [](void* input, const Argument& argument) {
-    static_cast<Input*>(input)->*Member = detail::from_argument<Field>(argument);
+    if constexpr (std::is_same_v<Field, std::vector<StopValue>>) {
+      (static_cast<Input*>(input)->*Member).push_back(detail::from_argument<StopValue>(argument));
+    } else {
+      static_cast<Input*>(input)->*Member = detail::from_argument<Field>(argument);
+    }
   };
+  row.is_repeatable = std::is_same_v<Field, std::vector<StopValue>>;
+  if constexpr (std::is_same_v<Field, ColorOrTexture>) {
+    row.store_texture = [](void* input, const TexturePointer& texture) {
+      (static_cast<Input*>(input)->*Member).texture = texture;
+    };
+  }
   row.default_value = [](const void* input, const PropertyRow& self) -> std::string {
     const auto& member = static_cast<const Input*>(input)->*Member;
     if constexpr (std::is_same_v<Field, typename Pointer::Type>) return detail::to_text(member, self);
     return {};  // an optional one: nothing unless given
+  };
+  return row;
+}
+
+template <auto Textures, auto Texture>
+constexpr PropertyRow PropertyRow::or_texture() const {
+  using Input = typename detail::MemberPointer<decltype(Textures)>::Input;
+  PropertyRow row = *this;
+  row.store_texture = [](void* input, const TexturePointer& texture) {
+    static_cast<Input*>(input)->*Textures.*Texture = texture;
   };
   return row;
 }

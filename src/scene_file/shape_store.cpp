@@ -75,6 +75,7 @@ std::string use_key(const void* owner, const std::vector<Value>& arguments, std:
   for (const Value& value : arguments) {
     add(&value.type, sizeof value.type);
     key += value.depends_on_time ? '1' : '0';
+    key += value.is_display ? '1' : '0';
     for (int i = 0; i < 3; ++i) add(&value.vector[i], sizeof(double));
     key += value.text;
     key += '\0';

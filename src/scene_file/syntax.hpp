@@ -70,16 +70,17 @@ struct ValueNode {
   const Expression* expression = nullptr;  ///< of a kExpression
 };
 
-/// `radius 0.5`
+struct BlockNode;
+
+/// `radius 0.5`, `color image "wood.png" { … }`
 struct PropertyNode {
   Span name;
   NameId name_id = 0;
   std::span<const ValueNode> values;
+  const BlockNode* body = nullptr;  ///< what stands in braces behind the values
 
   Span whole() const { return {name.begin, values.empty() ? name.end : values.back().span.end}; }
 };
-
-struct BlockNode;
 
 /// `include "file"`
 struct IncludeNode {
@@ -140,6 +141,7 @@ struct BlockNode {
   std::span<const ItemNode> items;
   std::uint32_t end = 0;  ///< behind the closing brace
   bool is_exact = false;  ///< its items need no knowledge of the kind to be told apart (JSON)
+  bool has_file = false;  ///< its first property is a file's name without a word for it
   bool is_closed = true;  ///< false where the text ended first, which has been reported
 
   /// In JSON the words may stand in front of the kind.

@@ -325,7 +325,7 @@ class Warnings(unittest.TestCase):
         self.assertEqual(self.warnings(SOUND), [])
 
     def test_no_camera(self):
-        warnings = self.warnings("light { }\nsphere { }\n")
+        warnings = self.warnings("light { position 3 4 5 }\nsphere { }\n")
         self.assertEqual(len(warnings), 1)
         self.assertIn("camera", warnings[0])
 
@@ -372,7 +372,7 @@ class Warnings(unittest.TestCase):
         self.assertIn(b"warning:", done.stderr)
 
     def test_a_misspelt_variant_of_a_light_is_not_taken_for_its_name(self):
-        for word in ("spto", "Spot", "directonal", "area"):
+        for word in ("spto", "Spot", "directonal", "aera"):
             code, messages = check_json(LIT + f"light {word} {{ }}\nsphere {{ }}\n")
             self.assertEqual([(m["line"], m["column"]) for m in messages], [(3, 7)], word)
 

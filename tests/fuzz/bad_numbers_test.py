@@ -16,6 +16,8 @@ FRAME = {"camera": "camera { position 0.5 1 6 look_at 0 0 0 }", "light": "light 
 
 # What these kinds can't be without.
 NEEDED = {"triangle": {"a": "0 0 0", "b": "1 0 0", "c": "0 1 0"}, "animation": {"duration": "4"}}
+# What a single property can't be without.
+ALONG = {"eta": " k 3.9 2.4 1.6", "k": " eta 0.14 0.37 1.44"}
 # All kinds share the code that places them: these stand for all.
 PLACED = {"sphere", "camera", "light spot", "group", "plane"}
 
@@ -44,7 +46,7 @@ def numeric_properties(page):
 
 def block(kind, name, values):
     properties = f"{name} {' '.join(values)}"
-    properties += "".join(f" {other} {value}" for other, value in NEEDED.get(kind, {}).items() if other != name)
+    properties += ALONG.get(name, "") + "".join(f" {other} {value}" for other, value in NEEDED.get(kind, {}).items() if other != name)
     if kind == "material":
         return f"sphere {{ material {{ {properties} }} }}"
     if kind == "group":

@@ -6,7 +6,7 @@
 
 #include "raytracer/vector3f.hpp"
 
-namespace raytracer::scene_file {
+namespace raytracer {
 
 /// A number in [0, 1) that depends on every bit of the seeds (and takes -0 for 0).
 double random_number(std::span<const double> seeds);
@@ -15,4 +15,4 @@ double random_number(std::span<const double> seeds);
 /// 1]; 0 at points with whole coordinates.
 double gradient_noise(const Vector3d& p);
 
-}  // namespace raytracer::scene_file
+}  // namespace raytracer

@@ -1,4 +1,4 @@
-#include "scene_file/noise.hpp"
+#include "core/noise.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 
 #include "core/hash.hpp"
 
-namespace raytracer::scene_file {
+namespace raytracer {
 namespace {
 
 std::uint64_t hash_numbers(std::span<const double> numbers) {
@@ -18,9 +18,7 @@ std::uint64_t hash_numbers(std::span<const double> numbers) {
 
 // The product of the offset with one of the twelve edge directions of a cube, by the hash of the lattice
 // point.
-double gradient(double x, double y, double z, const Vector3d& offset) {
-  const double point[] = {x, y, z};
-  const std::uint64_t hash = hash_numbers(point);
+double gradient(std::uint64_t hash, const Vector3d& offset) {
   const auto direction = static_cast<unsigned>(((hash >> 32U) * 12U) >> 32U);
   const double first = direction < 8 ? offset.x : offset.y;
   const double second = direction < 4 ? offset.y : offset.z;
@@ -41,19 +39,28 @@ double gradient_noise(const Vector3d& p) {
   const Vector3d cell = glm::floor(p);
   const Vector3d f = p - cell;
   const Vector3d share = {fade(f.x), fade(f.y), fade(f.z)};
+  // The corners' hashes are hash_numbers() of their coordinates; those of one x or one y share its steps.
+  const auto step = [](std::uint64_t hash, double number) {
+    return mix_bits(hash ^ std::bit_cast<std::uint64_t>(number + 0.0));
+  };
+  const std::uint64_t start = mix_bits(3);
+  double corner[2][2][2];
+  for (int i = 0; i < 2; ++i) {
+    const std::uint64_t x = step(start, cell.x + i);
+    for (int j = 0; j < 2; ++j) {
+      const std::uint64_t y = step(x, cell.y + j);
+      for (int k = 0; k < 2; ++k) {
+        corner[i][j][k] = gradient(step(y, cell.z + k), f - Vector3d(i, j, k));
+      }
+    }
+  }
   double along_z[2];
   for (int k = 0; k < 2; ++k) {
     double along_y[2];
-    for (int j = 0; j < 2; ++j) {
-      double along_x[2];
-      for (int i = 0; i < 2; ++i) {
-        along_x[i] = gradient(cell.x + i, cell.y + j, cell.z + k, f - Vector3d(i, j, k));
-      }
-      along_y[j] = blend(along_x[0], along_x[1], share.x);
-    }
+    for (int j = 0; j < 2; ++j) along_y[j] = blend(corner[0][j][k], corner[1][j][k], share.x);
     along_z[k] = blend(along_y[0], along_y[1], share.y);
   }
   return std::clamp(blend(along_z[0], along_z[1], share.z), -1.0, 1.0);
 }
 
-}  // namespace raytracer::scene_file
+}  // namespace raytracer

@@ -1,0 +1,67 @@
+// A hit as the recursion shades it, and where rays go on from it.
+#pragma once
+
+#include "raytracer/scene.hpp"
+
+namespace raytracer {
+
+/// How wide the part of the picture is that a ray stands for: at distance t of a ray with unit direction,
+/// width + t * spread. Textures are averaged over it.
+struct RayCone {
+  float width = 0;
+  float spread = 0;
+
+  /// Of a ray that goes on from there.
+  RayCone at(float t) const { return {width + t * spread, spread}; }
+};
+
+struct ShadingPoint {
+  Vector3f position;
+  Vector3f normal;           ///< geometric, unit length, turned towards where the ray came from
+  Vector3f shading_normal;   ///< likewise, of the curved surface that a mesh stands for
+  Vector3f offset_position;  ///< where reflected rays start
+  Vector3f shadow_position;  ///< where rays to lights start
+};
+
+inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hit& hit,
+                                  const SurfacePoint& surface) {
+  ShadingPoint point;
+  const bool is_back = glm::dot(surface.normal, ray.direction) > 0;
+  point.normal = is_back ? -surface.normal : surface.normal;
+  point.shading_normal = is_back ? -surface.shading_normal : surface.shading_normal;
+  if (const auto& epsilon = scene.description().epsilon) {
+    // The paper's way: the point as the ray's equation gives it, its rounding error included.
+    point.position = ray.at(hit.t);
+    point.offset_position = point.position + *epsilon * point.normal;
+  } else {
+    point.position = surface.position;
+    point.offset_position = point.position + surface.position_error * point.normal;
+  }
+  point.shadow_position = point.offset_position + surface.shadow_offset;
+  return point;
+}
+
+/// A mirror that is curved by its shading normals alone may send a ray into itself: it then goes along the
+/// surface.
+inline Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
+  Vector3f direction = glm::reflect(ray.direction, point.shading_normal);
+  const float away = glm::dot(direction, point.normal);
+  if (away < 0) direction -= 1.001f * away * point.normal;
+  return {point.offset_position, direction};
+}
+
+/// With what the vertices of a mesh say.
+inline Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hit, const Material& material) {
+  if (!scene.has_vertex_colors() || !material.takes_vertex_colors) return material.color;
+  return material.color * scene.detail_at(ray, hit).color;
+}
+
+inline float mirror_share(const Material& material) { return glm::clamp(material.shininess, 0.0f, 1.0f); }
+
+/// What a ray sees that hits nothing, in the 0..255 units of the buffers.
+inline Color3f color_beyond(const SceneDescription& scene, const Ray3f& ray, bool is_camera) {
+  if (scene.sky == nullptr || (is_camera && !scene.is_sky_visible)) return 255.0f * scene.background;
+  return 255.0f * scene.sky->radiance(glm::normalize(ray.direction));
+}
+
+}  // namespace raytracer
