@@ -4,7 +4,8 @@ rays, no antialiasing, no highlights, no gamma curve."""
 import dataclasses
 import math
 
-from world import Cube, Quad, Sphere
+import knots
+from world import Cube, Mesh, Quad, Sphere
 
 
 def numbers(*values):
@@ -13,11 +14,11 @@ def numbers(*values):
 
 # --- ours -------------------------------------------------------------------------------------------------------
 
-def to_raytracer(world):
+def to_raytracer(world, folder):
     lines = [
         "raytracer 1",
         f"image {{ size {world.size[0]} {world.size[1]} }}",
-        f"render {{ bounces {world.bounces} }}",
+        f"render {{ bounces {world.bounces} samples {world.samples} }}",
         f"camera {{ position {numbers(*world.camera)} look_at {numbers(*world.look_at)} up {numbers(*world.up)} "
         f"vertical_fov {world.vertical_fov} }}",
         f"background {{ color {numbers(*world.background)} }}",
@@ -29,7 +30,12 @@ def to_raytracer(world):
     for i, material in enumerate(materials):
         lines.append(f"material m{i} {{ color {numbers(*material.color)} shininess {material.shininess:g} }}")
     for shape in world.shapes:
-        lines.append(f"{raytracer_shape(shape)} material m{materials.index(shape.material)} }}")
+        material = f"material m{materials.index(shape.material)} }}"
+        if isinstance(shape, Mesh):
+            name = knots.file(shape.triangles, folder).name
+            lines.extend(f'mesh {{ file "{name}" translate {numbers(*place)} {material}' for place in shape.places)
+        else:
+            lines.append(f"{raytracer_shape(shape)} {material}")
     return "\n".join(lines) + "\n"
 
 
@@ -47,7 +53,7 @@ def raytracer_shape(shape):
 
 # --- POV-Ray ----------------------------------------------------------------------------------------------------
 
-def to_povray(world):
+def to_povray(world, folder):
     # POV-Ray is left-handed: a right-handed camera has its `right` turned round. adc_bailout 0: no ray is dropped.
     width, height = world.size
     horizontal = math.degrees(2 * math.atan(math.tan(math.radians(world.vertical_fov) / 2) * width / height))
@@ -71,12 +77,21 @@ def to_povray(world):
         lines.append(f"#declare M{i} = texture {{ pigment {{ rgb {pov(material.color)} }} "
                      f"finish {{ ambient 0 diffuse {1 - s:g}{mirror} }} }}")
     for shape in world.shapes:
-        lines.append(pov_shape(shape, f"texture {{ M{materials.index(shape.material)} }}"))
+        texture = f"texture {{ M{materials.index(shape.material)} }}"
+        lines.extend(pov_mesh(shape, texture, folder) if isinstance(shape, Mesh) else [pov_shape(shape, texture)])
     return "\n".join(lines) + "\n"
 
 
 def pov(vector):
     return "<" + ", ".join(f"{v:.9g}" for v in vector) + ">"
+
+
+def pov_mesh(mesh, texture, folder):
+    points, triangles = knots.read(knots.file(mesh.triangles, folder))
+    yield f"#declare K = mesh2 {{ vertex_vectors {{ {len(points)}, " + ", ".join(map(pov, points)) + " }"
+    yield f"face_indices {{ {len(triangles)}, " + ", ".join("<%d, %d, %d>" % t for t in triangles) + f" }} {texture} }}"
+    for place in mesh.places:
+        yield f"object {{ K translate {pov(place)} }}"
 
 
 def pov_shape(shape, texture):
@@ -102,7 +117,7 @@ def halves(quad):
 
 # --- Tachyon ----------------------------------------------------------------------------------------------------
 
-def to_tachyon(world):
+def to_tachyon(world, folder):
     # Tachyon's pictures are mirror images of a right-handed world.
     world = mirrored(world)
     width, height = world.size
@@ -130,7 +145,8 @@ def to_tachyon(world):
                      f"COLOR {numbers(*material.color)} TEXFUNC 0")
     materials = list(dict.fromkeys(shape.material for shape in world.shapes))
     for shape in world.shapes:
-        lines.extend(tachyon_shape(shape, f"m{materials.index(shape.material)}"))
+        texture = f"m{materials.index(shape.material)}"
+        lines.extend(tachyon_mesh(shape, texture, folder) if isinstance(shape, Mesh) else tachyon_shape(shape, texture))
     lines.append("END_SCENE")
     return "\n".join(lines) + "\n"
 
@@ -149,11 +165,22 @@ def mirrored(world):
                                            height=flip(shape.height))
             case Cube():
                 return dataclasses.replace(shape, center=flip(shape.center), turn=-shape.turn)
+            case Mesh():  # its points are turned round where they are written
+                return dataclasses.replace(shape, places=tuple(map(flip, shape.places)))
 
     return dataclasses.replace(
         world, camera=flip(world.camera), look_at=flip(world.look_at), up=flip(world.up),
         lights=[dataclasses.replace(light, position=flip(light.position)) for light in world.lights],
         shapes=[flip_shape(shape) for shape in world.shapes])
+
+
+def tachyon_mesh(mesh, texture, folder):
+    """Every triangle in every place: Tachyon has no instances."""
+    points, triangles = knots.read(knots.file(mesh.triangles, folder))
+    for x, y, z in mesh.places:
+        for triangle in triangles:
+            a, b, c = ((x - points[i][0], y + points[i][1], z + points[i][2]) for i in triangle)
+            yield f"TRI V0 {numbers(*a)} V1 {numbers(*b)} V2 {numbers(*c)} {texture}"
 
 
 def tachyon_shape(shape, texture):

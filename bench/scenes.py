@@ -2,7 +2,7 @@
 
 import math
 
-from world import Cube, Light, Material, Quad, Sphere, World
+from world import Cube, Light, Material, Mesh, Quad, Sphere, World
 
 
 def tiny():
@@ -76,9 +76,29 @@ def normalized(v):
     return tuple(c / length for c in v)
 
 
+def mesh():
+    """A knot of 872,000 triangles, one light, hard shadows, four samples."""
+    return World(
+        name="mesh", size=(1920, 1080), bounces=8, camera=(0, -3, 8), look_at=(0, 0, 0), up=(0, 1, 0), vertical_fov=45,
+        background=(0.25, 0.4, 0.65), lights=[Light((-6, 9, 7), 12, fades=True)],
+        shapes=[Mesh(872002, Material((0.8, 0.8, 0.8)))], samples=4)
+
+
+def instances():
+    """10,000 knots of 50,000 triangles each on a floor."""
+    places = tuple((8.0 * i, 3.5, -8.0 * k) for k in range(100) for i in range(-50, 50))
+    return World(
+        name="instances", size=(1920, 1080), bounces=8, camera=(0, 40, 60), look_at=(0, 0, -60), up=(0, 1, 0),
+        vertical_fov=45, background=(0.25, 0.4, 0.65), lights=[Light((-300, 400, 100), 500, fades=True)],
+        shapes=[Mesh(50000, Material((0.9, 0.5, 0.2)), places),
+                Quad((-2000, 0, 200), (4000, 0, 0), (0, 0, -4000), Material((0.8, 0.8, 0.8)))])
+
+
 ALL = {
     "tiny": tiny,
     "classic": classic,
     "sphereflake-7k": lambda: sphereflake("sphereflake-7k", 4),
     "sphereflake-66k": lambda: sphereflake("sphereflake-66k", 5),
+    "mesh": mesh,
+    "instances": instances,
 }

@@ -38,6 +38,14 @@ class Cube:
 
 
 @dataclasses.dataclass(frozen=True)
+class Mesh:
+    """The knot of make_mesh.py, of about so many triangles, at each of the places."""
+    triangles: int
+    material: Material
+    places: tuple[Vector, ...] = ((0.0, 0.0, 0.0),)
+
+
+@dataclasses.dataclass(frozen=True)
 class Light:
     """A white point; strength 1 shows white as white, wherever it stands or, where it fades, at distance 1."""
     position: Vector
@@ -57,3 +65,4 @@ class World:
     background: Vector
     lights: list[Light]
     shapes: list
+    samples: int = 1  # a square number; others than ours take a larger picture instead

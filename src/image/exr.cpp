@@ -82,7 +82,7 @@ std::vector<std::uint8_t> exr_of(const Image& image) {
   return out.take();
 }
 
-// --- reading -----------------------------------------------------------------------------------------------
+// --- reading ------------------------------------------------------------------------------------------
 
 /// A file that is in memory.
 class BytesIn : public Imf::IStream {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "image/file_bytes.hpp"
+#include "image/byte_span.hpp"
 
 namespace raytracer {
 

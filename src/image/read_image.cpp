@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/mapped_file.hpp"
 #include "image/readers.hpp"
 #include "raytracer/error.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 /// A kind of picture, by what its files begin with.
 struct Kind {
   std::string_view name;   // with its article
-  std::string_view begin;  // '?' stands for any byte
+  std::string_view begin;  // '.' stands for any byte; empty: nothing tells them
   Picture (*read)(ByteSpan);
   std::array<std::string_view, 4> endings = {};
 };
@@ -30,11 +31,11 @@ constexpr std::array kKinds = {
     Kind{"a Radiance HDR", "#?"sv, read_radiance, {".hdr", ".rgbe", ".pic"}},
     Kind{"an EXR", "\x76\x2f\x31\x01"sv, read_exr, {".exr", ".sxr", ".mxr"}},
     Kind{"a GIF", "GIF8"sv, nullptr, {".gif"}},
-    Kind{"a BMP", "BM????\0\0"sv, nullptr, {".bmp"}},
+    Kind{"a BMP", "BM....\0\0"sv, nullptr, {".bmp"}},
     Kind{"a TIFF", "II*\0"sv, nullptr, {".tif", ".tiff"}},
     Kind{"a TIFF", "MM\0*"sv, nullptr, {}},
-    Kind{"a WebP", "RIFF????WEBP"sv, nullptr, {".webp"}},
-    Kind{"an AVIF or HEIF", "????ftyp"sv, nullptr, {".avif", ".heic"}},
+    Kind{"a WebP", "RIFF....WEBP"sv, nullptr, {".webp"}},
+    Kind{"an AVIF or HEIF", "....ftyp"sv, nullptr, {".avif", ".heic"}},
     Kind{"a JPEG 2000", "\0\0\0\x0cjP  "sv, nullptr, {".jp2"}},
     Kind{"a JPEG XL", "\xff\x0a"sv, nullptr, {".jxl"}},
     Kind{"a DDS", "DDS "sv, nullptr, {".dds"}},
@@ -43,15 +44,14 @@ constexpr std::array kKinds = {
     Kind{"a PFM", "PF\n"sv, nullptr, {".pfm"}},
     Kind{"a PFM", "Pf\n"sv, nullptr, {}},
     Kind{"an SVG", "<svg"sv, nullptr, {".svg"}},
-    Kind{"a Targa", "?never?"sv, nullptr, {".tga"}},
+    Kind{"a Targa", ""sv, nullptr, {".tga"}},
 };
 
-// '?' in the second place is a byte of its own in Radiance's "#?".
 bool begins_with(ByteSpan file, const Kind& kind) {
-  if (file.size() < kind.begin.size()) return false;
+  if (kind.begin.empty() || file.size() < kind.begin.size()) return false;
   for (std::size_t i = 0; i < kind.begin.size(); ++i) {
-    const bool is_any = kind.begin[i] == '?' && kind.begin.size() > 2;
-    if (!is_any && file[i] != static_cast<std::uint8_t>(kind.begin[i])) return false;
+    const char expected = kind.begin[i];
+    if (expected != '.' && file[i] != static_cast<std::uint8_t>(expected)) return false;
   }
   return true;
 }
@@ -113,7 +113,8 @@ void check_plausible(std::size_t raw_bytes, std::size_t file_bytes) {
 }
 
 Picture read_picture(const std::string& path) {
-  const std::vector<std::uint8_t> file = read_file_bytes(path);
+  const MappedFile mapped(path);
+  const ByteSpan file(reinterpret_cast<const std::uint8_t*>(mapped.bytes().data()), mapped.bytes().size());
   const Kind* content = kind_of(file);
   const Kind* name = kind_named(path);
   if (content == nullptr || content->read == nullptr) throw unreadable(file, content, name);

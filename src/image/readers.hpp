@@ -1,7 +1,7 @@
 // A reader for each kind of picture; read_picture chooses.
 #pragma once
 
-#include "image/file_bytes.hpp"
+#include "image/byte_span.hpp"
 #include "image/picture.hpp"
 
 namespace raytracer {

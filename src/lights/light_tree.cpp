@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "core/numeric.hpp"
+#include "core/parallel.hpp"
 
 namespace raytracer {
 
 namespace {
 
-constexpr std::uint32_t kNowhere = 0xFFFFFFFF;
 /// Below this share of the strongest item's strength an item counts as if it had that much: what else shines
 /// may be out of sight, and numbers stay in the range of float.
 constexpr float kLeastShare = 1e-12F;
@@ -85,30 +85,34 @@ class LightTree::Builder {
     double strongest = 0;
     for (const LightItem& item : items) strongest = std::max(strongest, total(item.strength));
     tree_.trails_.assign(items.size(), 0);
-    tree_.leaf_of_.assign(items.size(), kNowhere);
+    tree_.is_in_tree_.assign(items.size(), false);
     entries_.reserve(items.size());
     for (std::uint32_t i = 0; i < items.size(); ++i) {
       const LightItem& item = items[i];
       if (!(total(item.strength) > 0) || item.bounds.is_empty() || !item.bounds.is_finite()) continue;
-      Entry entry{i, item.bounds.center(), item.cone.cos_spread > -1 ? item.cone.axis : Vector3f(0), {}};
+      Entry entry{
+          i, item.bounds, item.cone.cos_spread > -1 ? item.cone.axis : Vector3f(0), {}, item.cone.back > 0};
       for (std::size_t k = 0; k < 3; ++k) {
         const double share = item.strength[k] / strongest;
         entry.strength[k] = share > 0 ? std::max(static_cast<float>(share), kLeastShare) : 0.0F;
       }
+      tree_.is_in_tree_[i] = true;
       entries_.push_back(entry);
     }
     if (entries_.empty()) return;
-    tree_.nodes_.reserve(2 * entries_.size() - 1);
-    build(0, static_cast<std::uint32_t>(entries_.size()), 0, 0);
+    tree_.nodes_.resize(2 * entries_.size());  // the second stays unused: pairs begin at even places
+    build(0, 2, {0, static_cast<std::uint32_t>(entries_.size())}, 0, 0);
   }
 
  private:
   struct Entry {
     std::uint32_t item;
-    Vector3f center;
+    Box3f bounds;
     Vector3f axis;  // 0: all directions
     std::array<float, 3> strength;
+    bool is_two_sided;
 
+    float center(int i) const { return 0.5F * bounds.lower[i] + 0.5F * bounds.upper[i]; }
     float weight() const { return strength[0] + strength[1] + strength[2]; }
   };
 
@@ -131,36 +135,48 @@ class LightTree::Builder {
     }
   };
 
-  Box3f build(std::uint32_t begin, std::uint32_t end, int depth, std::uint64_t trail) {
-    const auto index = static_cast<std::uint32_t>(tree_.nodes_.size());
-    tree_.nodes_.emplace_back();
-    if (end - begin == 1) return make_leaf(index, entries_[begin], trail);
-    const std::uint32_t middle = split(begin, end, depth);
-    Box3f bounds = build(begin, middle, depth + 1, trail);
-    const auto second = static_cast<std::uint32_t>(tree_.nodes_.size());
-    bounds.extend(build(middle, end, depth + 1, trail | std::uint64_t{1} << depth));
+  struct Range {
+    std::uint32_t begin, end;  // of entries_
+    std::uint32_t size() const { return end - begin; }
+  };
 
-    Node node;
-    const Node &a = tree_.nodes_[index + 1], &b = tree_.nodes_[second];
+  /// Builds the node at `index`; all below it stands from `first` on, which for n items takes 2 n - 2 places
+  /// whatever the splits: so the two halves can be built at the same time.
+  Box3f build(std::uint32_t index, std::uint32_t first, const Range& range, int depth, std::uint64_t trail) {
+    if (range.size() == 1) return make_leaf(index, entries_[range.begin], trail);
+    const std::uint32_t middle = split(range.begin, range.end, depth);
+    const std::array<Range, 2> halves = {Range{range.begin, middle}, Range{middle, range.end}};
+    const std::array<std::uint32_t, 2> places = {first + 2, first + 2 * halves[0].size()};
+    std::array<Box3f, 2> bounds;
+    const auto build_half = [&](std::size_t k) {
+      bounds[k] = build(first + static_cast<std::uint32_t>(k), places[k], halves[k], depth + 1,
+                        trail | static_cast<std::uint64_t>(k) << depth);
+    };
+    constexpr std::uint32_t kMany = 8192;
+    if (range.size() > kMany) {
+      parallel_for(2, build_half);
+    } else {
+      build_half(0);
+      build_half(1);
+    }
+    Node& node = tree_.nodes_[index];
+    const Node &a = tree_.nodes_[first], &b = tree_.nodes_[first + 1];
     node.cone = LightCone::around(a.cone, b.cone);
     for (std::size_t k = 0; k < 3; ++k) node.strength[k] = a.strength[k] + b.strength[k];
-    node.second = second;
-    finish(node, bounds);
-    tree_.nodes_[index] = node;
-    return bounds;
+    node.link = first;
+    bounds[0].extend(bounds[1]);
+    finish(node, bounds[0]);
+    return bounds[0];
   }
 
   Box3f make_leaf(std::uint32_t index, const Entry& entry, std::uint64_t trail) {
-    Node node;
+    Node& node = tree_.nodes_[index];
     node.cone = items_[entry.item].cone;
     node.strength = entry.strength;
-    node.is_leaf = true;
-    node.item = entry.item;
-    finish(node, items_[entry.item].bounds);
-    tree_.nodes_[index] = node;
+    node.link = entry.item | Node::kLeaf;
+    finish(node, entry.bounds);
     tree_.trails_[entry.item] = trail;
-    tree_.leaf_of_[entry.item] = index;
-    return items_[entry.item].bounds;
+    return entry.bounds;
   }
 
   static void finish(Node& node, const Box3f& bounds) {
@@ -175,7 +191,7 @@ class LightTree::Builder {
     constexpr int kDeep = 30;
     constexpr std::uint32_t kFew = 4;
     Box3f centers;
-    for (std::uint32_t i = begin; i < end; ++i) centers.extend(entries_[i].center);
+    for (std::uint32_t i = begin; i < end; ++i) centers.extend(entries_[i].bounds.center());
     if (end - begin > kFew && depth < kDeep) {
       const std::uint32_t middle = split_by_cost(begin, end, centers);
       if (middle > begin && middle < end) return middle;
@@ -185,8 +201,8 @@ class LightTree::Builder {
     const std::uint32_t middle = begin + (end - begin) / 2;
     std::nth_element(entries_.begin() + begin, entries_.begin() + middle, entries_.begin() + end,
                      [axis](const Entry& a, const Entry& b) {
-                       return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis]
-                                                               : a.item < b.item;
+                       const float at_a = a.center(axis), at_b = b.center(axis);
+                       return at_a != at_b ? at_a < at_b : a.item < b.item;
                      });
     return middle;
   }
@@ -195,7 +211,7 @@ class LightTree::Builder {
 
   static int bin_of(const Entry& entry, const Box3f& centers, int axis) {
     const float width = centers.upper[axis] - centers.lower[axis];
-    const float place = (entry.center[axis] - centers.lower[axis]) / width * kBins;
+    const float place = (entry.center(axis) - centers.lower[axis]) / width * kBins;
     return std::clamp(static_cast<int>(place), 0, kBins - 1);
   }
 
@@ -212,8 +228,8 @@ class LightTree::Builder {
       for (std::uint32_t i = begin; i < end; ++i) {
         const Entry& entry = entries_[i];
         Heap& bin = bins[static_cast<std::size_t>(bin_of(entry, centers, axis))];
-        bin.bounds.extend(items_[entry.item].bounds);
-        const bool is_flipped = items_[entry.item].cone.back > 0 && glm::dot(entry.axis, up) < 0;
+        bin.bounds.extend(entry.bounds);
+        const bool is_flipped = entry.is_two_sided && glm::dot(entry.axis, up) < 0;
         bin.axes += (is_flipped ? -entry.weight() : entry.weight()) * entry.axis;
         bin.weight += entry.weight();
       }
@@ -288,41 +304,36 @@ bool LightTree::choose(const Vector3f& position, const Vector3f& normal, double&
                        double& probability) const {
   if (nodes_.empty()) return false;
   probability = 1;
-  std::uint32_t index = 0;
-  while (!nodes_[index].is_leaf) {
-    const std::uint32_t second = nodes_[index].second;
-    const double a = importance(nodes_[index + 1], position, normal);
-    const double b = importance(nodes_[second], position, normal);
+  const Node* node = nodes_.data();
+  while (!node->is_leaf()) {
+    const Node* children = nodes_.data() + node->link;
+    const double a = importance(children[0], position, normal);
+    const double b = importance(children[1], position, normal);
     if (!(a + b > 0)) return false;
     const double share = a / (a + b);
-    if (u < share) {
-      u /= share;
-      probability *= share;
-      index = index + 1;
-    } else {
-      u = (u - share) / (1 - share);
-      probability *= 1 - share;
-      index = second;
-    }
+    const bool is_first = u < share;
+    const double width = is_first ? share : 1 - share;
     constexpr double kBelowOne = 1 - 0x1p-53;
-    u = std::min(u, kBelowOne);
+    u = std::min((is_first ? u : u - share) / width, kBelowOne);
+    probability *= width;
+    node = is_first ? children : children + 1;
   }
-  item = nodes_[index].item;
+  item = node->link & ~Node::kLeaf;
   return true;
 }
 
 double LightTree::probability(const Vector3f& position, const Vector3f& normal, std::uint32_t item) const {
-  if (leaf_of_[item] == kNowhere) return 0;
+  if (!is_in_tree_[item]) return 0;
   double probability = 1;
   std::uint64_t trail = trails_[item];
-  for (std::uint32_t index = 0; !nodes_[index].is_leaf; trail >>= 1) {
-    const std::uint32_t second = nodes_[index].second;
-    const double a = importance(nodes_[index + 1], position, normal);
-    const double b = importance(nodes_[second], position, normal);
+  for (const Node* node = nodes_.data(); !node->is_leaf(); trail >>= 1) {
+    const Node* children = nodes_.data() + node->link;
+    const double a = importance(children[0], position, normal);
+    const double b = importance(children[1], position, normal);
     if (!(a + b > 0)) return 0;
     const double share = a / (a + b);
     probability *= (trail & 1) != 0 ? 1 - share : share;
-    index = (trail & 1) != 0 ? second : index + 1;
+    node = (trail & 1) != 0 ? children + 1 : children;
   }
   return probability;
 }

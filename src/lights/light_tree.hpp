@@ -53,23 +53,25 @@ class LightTree {
   double probability(const Vector3f& position, const Vector3f& normal, std::uint32_t item) const;
 
  private:
-  struct Node {
+  /// A cache line each; the two children of a node stand side by side.
+  struct alignas(64) Node {
     Vector3f center{0};  // of a ball around it all
     float radius = 0;
     LightCone cone;
     float sin_spread = 0;
     std::array<float, 3> strength{0, 0, 0};  // as LightItem, in units of the strongest item
-    std::uint32_t second = 0;                // of an inner node: its second child; the first follows it
-    std::uint32_t item = 0;                  // of a leaf
-    bool is_leaf = false;
+    std::uint32_t link = 0;                  // of a leaf its item, else its first child
+
+    static constexpr std::uint32_t kLeaf = 0x80000000;  // marks the link of a leaf
+    bool is_leaf() const { return (link & kLeaf) != 0; }
   };
   class Builder;
 
   static double importance(const Node& node, const Vector3f& position, const Vector3f& normal);
 
-  std::vector<Node> nodes_;             // the root first
-  std::vector<std::uint64_t> trails_;   // per item, bit k: the child taken on floor k of the way down
-  std::vector<std::uint32_t> leaf_of_;  // per item; kNowhere: not in the tree
+  std::vector<Node> nodes_;            // the root first
+  std::vector<std::uint64_t> trails_;  // per item, bit k: the child taken on floor k of the way down
+  std::vector<bool> is_in_tree_;       // per item
 };
 
 }  // namespace raytracer

@@ -77,13 +77,14 @@ struct Facet {
 };
 
 int find_facets(const Ggx& ggx, const Vector3f& o, std::array<Facet, kAround * kUp>& facets) {
+  const Ggx::Eye eye = ggx.eye(o);
   int count = 0;
   for_points([&](const Vector2f& u, float weight) {
-    const Vector3f h = ggx.sample_visible(o, u);
+    const Vector3f h = ggx.sample_visible(eye, u);
     const float c = std::min(1.0F, glm::dot(o, h));
     if (!(c > 0)) return;
     const Vector3f i = 2 * c * h - o;
-    const float shows = i.z > 0 ? 4 * o.z * i.z * ggx.joint_visibility(o, i) / ggx.visible(o) : 0.0F;
+    const float shows = i.z > 0 ? 4 * o.z * i.z * ggx.joint_visibility(eye, i) / ggx.visible(eye) : 0.0F;
     facets[static_cast<std::size_t>(count++)] = {h, c, weight, shows};
   });
   return count;
@@ -104,7 +105,8 @@ Vector2f glass_shares(const Ggx& ggx, const Vector3f& o, const Facet& facet, flo
 
 template <int Count>
 float AlbedoGrid<Count>::alpha_of(int row) {
-  const float roughness = static_cast<float>(row) / (Count - 1);
+  constexpr float kStep = 1.0F / (Count - 1);
+  const float roughness = static_cast<float>(row) * kStep;
   return std::max(kLeastAlpha, roughness * roughness);
 }
 
@@ -143,17 +145,18 @@ void ReflectionTable::fill(int row, int column) {
   const float alpha = Grid::alpha_of(row), cosine = Grid::cosine_of(column, alpha);
   const Ggx ggx(alpha, alpha);
   const Vector3f o = direction_at(cosine);
+  const Ggx::Eye eye = ggx.eye(o);
   std::array<float, kAround * kUp> cosines{}, shares{};
   std::size_t count = 0;
   float all = 0;
   for_points([&](const Vector2f& u, float weight) {
-    const Vector3f h = ggx.sample_bounded(o, u);
+    const Vector3f h = ggx.sample_bounded(eye, u);
     const float c = std::min(1.0F, glm::dot(o, h));
     const Vector3f i = 2 * c * h - o;
     if (!(i.z > 0)) return;
     const float density = ggx.density(h);
     const float share =
-        weight * density * i.z * ggx.joint_visibility(o, i) / ggx.bounded_reflection_pdf(o, density);
+        weight * density * i.z * ggx.joint_visibility(eye, i) / ggx.bounded_reflection_pdf(eye, density);
     cosines[count] = c;
     shares[count++] = share;
     all += share;

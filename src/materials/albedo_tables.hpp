@@ -11,14 +11,14 @@ namespace raytracer {
 
 /// A place between two nodes of an axis.
 struct AxisCell {
-  int node = 0;      ///< the lower of the two
-  float weight = 0;  ///< of the upper, 0..1
+  int node;      ///< the lower of the two
+  float weight;  ///< of the upper, 0..1
 };
 
 /// The alpha axis, a grid with nodes even in roughness. Also carries alpha itself, on which the axis of
 /// cosines depends: near grazing the albedo follows cosine / alpha.
 struct AlphaCell : AxisCell {
-  float alpha = 0;
+  float alpha;
   AxisCell at_cosine(float cosine, int count) const {
     const float k = 2 * alpha;
     const float x = std::sqrt(cosine * (1 + k) / (cosine + k)) * static_cast<float>(count - 1);

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "materials/fresnel.hpp"
-#include "materials/ggx.hpp"
 #include "sampling/hemisphere.hpp"
 
 namespace raytracer {
@@ -25,15 +23,6 @@ Color3f share(const Color3f& c) { return {share(c.x), share(c.y), share(c.z)}; }
 float index_of_refraction(float x) { return x > 0 ? std::clamp(x, 1e-2F, 1e2F) : 1.0F; }
 float largest(const Color3f& c) { return std::max(c.x, std::max(c.y, c.z)); }
 
-ConductorIndex relative_to(const ConductorIndex& index, float outside) {
-  ConductorIndex result;
-  for (int c = 0; c < 3; ++c) {
-    result.eta[c] = std::max(1e-3F, std::min(1e3F, index.eta[c] / outside));
-    result.k[c] = std::max(0.0F, std::min(1e3F, index.k[c] / outside));
-  }
-  return result;
-}
-
 float reflect_probability(const Color3f& reflected, const Color3f& through) {
   const float r = largest(reflected), t = largest(through);
   return t > 0 ? r / (r + t) : 1.0F;
@@ -44,22 +33,9 @@ float both_faces(float reflectance) { return 2 * reflectance / (1 + reflectance)
 
 }  // namespace
 
-struct Bsdf::View {
-  Vector3f o;      ///< out in the surface's own space, turned upside down where needed so that o.z > 0
-  bool is_below;   ///< it was
-  bool is_inside;  ///< in solid glass, where there is no coat
-  const GlassSide* side;
-  const GlassSide* other_side;
-  FacetShares smooth;  ///< of smooth facets
-  float coat_passes, layer_passes, mirror_loss, glass_loss;
-  // How often each lobe is chosen; their sum is 1. `back` and `through` are the matt ones.
-  float p_mirror, p_passing, p_coat, p_facet, p_back, p_through;
-};
-
 // --- the closure
 // ----------------------------------------------------------------------------------------------
 
-// Members that a matt surface does not need are left alone for it: most surfaces are.
 Bsdf::Bsdf(const Material& material, const BsdfFrame& frame)
     : color_(share(material.color)),
       is_black_(material.is_area_light),
@@ -69,16 +45,18 @@ Bsdf::Bsdf(const Material& material, const BsdfFrame& frame)
       geometric_normal_(frame.geometric_normal),
       normal_(frame.normal) {
   if (is_black_ || is_matt_) return;
+  looked_from_ = Vector3f(0);
   const float outside = index_of_refraction(frame.ior_outside);
   set_up_shares(material);
-  set_up_roughness(material);
+  // Without facets their roughness means nothing; taken for smooth they cost nothing.
+  const bool has_facets = metal_ > 0 || glass_ > 0 || (opaque_ > 0 && material.has_layer);
+  set_up_roughness(material, has_facets);
   set_up_sides(frame, index_of_refraction(material.ior) / outside);
   set_up_frame(frame);
   set_up_layers(material, outside);
   set_up_metal(material, outside);
   if (glass_ > 0 && alpha_x_ > 0 && has_compensation_) set_up_glass();
-  const bool has_facets = metal_ > 0 || glass_ > 0 || (opaque_ > 0 && specular_ > 0);
-  is_delta_ = opaque_ <= 0 && (!has_facets || alpha_x_ <= 0) && (coat_ <= 0 || coat_alpha_ <= 0);
+  is_delta_ = opaque_ <= 0 && alpha_x_ <= 0 && (coat_ <= 0 || coat_alpha_ <= 0);
 }
 
 void Bsdf::set_up_shares(const Material& material) {
@@ -96,17 +74,19 @@ void Bsdf::set_up_shares(const Material& material) {
 }
 
 // glTF's KHR_materials_anisotropy: alpha along one axis is drawn towards 1 by the strength squared.
-void Bsdf::set_up_roughness(const Material& material) {
+void Bsdf::set_up_roughness(const Material& material, bool has_facets) {
   const float roughness = share(material.roughness), alpha = roughness * roughness;
   const float strength = std::min(1.0F, std::abs(material.anisotropy));
   const float stretched = strength > 0 ? alpha + (1 - alpha) * strength * strength : alpha;
-  const bool is_smooth = !(stretched >= kLeastAlpha);
+  const bool is_smooth = !has_facets || !(stretched >= kLeastAlpha);
   const float wide = is_smooth ? 0.0F : stretched, narrow = is_smooth ? 0.0F : std::max(kLeastAlpha, alpha);
   alpha_x_ = material.anisotropy < 0 ? narrow : wide;
   alpha_y_ = material.anisotropy < 0 ? wide : narrow;
   const float coat_roughness = share(material.coat_roughness);
   coat_alpha_ = coat_roughness * coat_roughness;
   if (coat_alpha_ < kLeastAlpha) coat_alpha_ = 0;
+  if (alpha_x_ > 0) facets_ = Ggx(alpha_x_, alpha_y_);
+  if (coat_alpha_ > 0) coat_facets_ = Ggx(coat_alpha_, coat_alpha_);
 }
 
 // Between equal indices there is nothing to see; where they are nearly equal, facets hardly spread the light.
@@ -121,6 +101,7 @@ void Bsdf::set_up_sides(const BsdfFrame& frame, float layer_eta) {
   if (difference < 1e-6F) {
     passing_ = glass_;
     glass_ = 0;
+    if (metal_ <= 0 && opaque_ <= 0) alpha_x_ = alpha_y_ = 0;
   } else if (std::max(alpha_x_, alpha_y_) * difference < kLeastSpread) {
     alpha_x_ = alpha_y_ = 0;
   }
@@ -143,8 +124,6 @@ void Bsdf::set_up_frame(const BsdfFrame& frame) {
 // The layer stands on an opaque base only where the material says so; of a boundary only how far the indices
 // are apart counts, so that no opaque base ever hides behind total reflection.
 void Bsdf::set_up_layers(const Material& material, float outside) {
-  cell_x_ = ReflectionTable::Grid::cell_of(alpha_x_);
-  cell_y_ = is_isotropic_ ? cell_x_ : ReflectionTable::Grid::cell_of(alpha_y_);
   const float eta = index_of_refraction(material.ior) / outside;
   layer_eta_ = std::max(eta, 1 / eta);
   specular_ = share(material.specular);
@@ -152,13 +131,18 @@ void Bsdf::set_up_layers(const Material& material, float outside) {
   if (!material.has_layer && !(material.transmission > 0)) specular_ = 0;
   if (layer_eta_ < 1.0005F) layer_eta_ = 1;
   layer_mean_passes_ = 1;
-  if (opaque_ > 0 && specular_ > 0 && layer_eta_ > 1) {
+  const bool has_layer = opaque_ > 0 && specular_ > 0 && layer_eta_ > 1;
+  if (alpha_x_ > 0 || has_layer || coat_ > 0) {
+    reflection_ = &ReflectionTable::get();
+    cell_x_ = ReflectionTable::Grid::cell_of(alpha_x_);
+    cell_y_ = is_isotropic_ ? cell_x_ : ReflectionTable::Grid::cell_of(alpha_y_);
+  }
+  if (has_layer) {
     layer_eta_cell_ = ReflectionTable::eta_cell(layer_eta_);
-    const ReflectionTable& table = ReflectionTable::get();
     // Along two roughnesses the greater reflection is assumed (see layer_passes), so the smaller mean is
     // safe.
-    layer_mean_passes_ = 1 - specular_ * std::max(table.boundary_mean(cell_x_, layer_eta_cell_),
-                                                  table.boundary_mean(cell_y_, layer_eta_cell_));
+    layer_mean_passes_ = 1 - specular_ * std::max(reflection_->boundary_mean(cell_x_, layer_eta_cell_),
+                                                  reflection_->boundary_mean(cell_y_, layer_eta_cell_));
   }
   if (coat_ <= 0) return;
   const float coat_eta = kCoatIor / outside;
@@ -175,14 +159,13 @@ void Bsdf::set_up_metal(const Material& material, float outside) {
   mirror_mean_loss_ = 0;
   const bool is_rough = alpha_x_ > 0;
   if (is_rough && has_compensation_ && (metal_ > 0 || (glass_ > 0 && is_thin_))) {
-    const ReflectionTable& table = ReflectionTable::get();
-    mirror_mean_loss_ = 1 - std::max(table.mirror_mean(cell_x_), table.mirror_mean(cell_y_));
+    mirror_mean_loss_ = 1 - std::max(reflection_->mirror_mean(cell_x_), reflection_->mirror_mean(cell_y_));
     if (mirror_mean_loss_ < kLeastLoss) mirror_mean_loss_ = 0;
   }
   if (metal_ <= 0) return;
   is_measured_ = material.conductor.has_value();
   if (is_measured_) {
-    conductor_ = relative_to(*material.conductor, outside);
+    conductor_ = ConductorSquares(*material.conductor, outside);
     metal_mean_ = color_ * fresnel_conductor_mean(conductor_);
   } else {
     metal_f0_ = color_;
@@ -231,7 +214,7 @@ Color3f Bsdf::metal_fresnel(float cosine) const {
 }
 
 Bsdf::FacetShares Bsdf::facet_shares(const View& view, float cosine) const {
-  FacetShares shares;
+  FacetShares shares{Color3f(0), Color3f(0)};
   if (metal_ > 0) shares.reflected = metal_ * metal_fresnel(cosine);
   if (opaque_ > 0 && specular_ > 0) {
     shares.reflected += Color3f(opaque_ * specular_ * fresnel_dielectric(cosine, layer_eta_).reflectance);
@@ -248,9 +231,8 @@ Bsdf::FacetShares Bsdf::facet_shares(const View& view, float cosine) const {
 
 // Along two roughnesses the smaller loss is assumed: never too much is made up for.
 float Bsdf::mirror_loss(float cosine) const {
-  const ReflectionTable& table = ReflectionTable::get();
-  const float albedo = table.mirror(cell_x_, cosine);
-  return 1 - (is_isotropic_ ? albedo : std::max(albedo, table.mirror(cell_y_, cosine)));
+  const float albedo = reflection_->mirror(cell_x_, cosine);
+  return 1 - (is_isotropic_ ? albedo : std::max(albedo, reflection_->mirror(cell_y_, cosine)));
 }
 
 float Bsdf::glass_loss(const GlassSide& side, float cosine) const {
@@ -264,10 +246,9 @@ float Bsdf::glass_loss(const GlassSide& side, float cosine) const {
 float Bsdf::layer_passes(float cosine) const {
   if (specular_ <= 0 || layer_eta_ <= 1) return 1;
   if (alpha_x_ <= 0) return 1 - specular_ * fresnel_dielectric(cosine, layer_eta_).reflectance;
-  const ReflectionTable& table = ReflectionTable::get();
-  float reflected = table.boundary(cell_x_, layer_eta_cell_, layer_eta_, cosine);
+  float reflected = reflection_->boundary(cell_x_, layer_eta_cell_, layer_eta_, cosine);
   if (!is_isotropic_) {
-    reflected = std::max(reflected, table.boundary(cell_y_, layer_eta_cell_, layer_eta_, cosine));
+    reflected = std::max(reflected, reflection_->boundary(cell_y_, layer_eta_cell_, layer_eta_, cosine));
   }
   return 1 - specular_ * reflected;
 }
@@ -275,7 +256,7 @@ float Bsdf::layer_passes(float cosine) const {
 float Bsdf::coat_passes(float cosine, bool is_inside) const {
   if (coat_ <= 0 || is_inside) return 1;
   if (coat_alpha_ <= 0) return 1 - coat_ * fresnel_dielectric(cosine, coat_eta_).reflectance;
-  return 1 - coat_ * ReflectionTable::get().boundary(coat_cell_, coat_eta_cell_, coat_eta_, cosine);
+  return 1 - coat_ * reflection_->boundary(coat_cell_, coat_eta_cell_, coat_eta_, cosine);
 }
 
 // The base under its layer: what goes in at o and comes out at i, and what the layer throws back from below
@@ -306,7 +287,15 @@ Color3f Bsdf::matt_transmission(const View& view, float cosine) const {
 // --- what out sees
 // --------------------------------------------------------------------------------------------
 
-bool Bsdf::look(const Vector3f& out, View& view) const {
+const Bsdf::View* Bsdf::look(const Vector3f& out) const {
+  if (out != looked_from_) {
+    looked_from_ = out;
+    can_look_ = look_anew(out, view_);
+  }
+  return can_look_ ? &view_ : nullptr;
+}
+
+bool Bsdf::look_anew(const Vector3f& out, View& view) const {
   const float cosine = glm::dot(normal_, out), geometric = glm::dot(geometric_normal_, out);
   if (!((cosine > 0 && geometric > 0) || (cosine < 0 && geometric < 0))) return false;
   view.is_below = cosine < 0;
@@ -319,6 +308,7 @@ bool Bsdf::look(const Vector3f& out, View& view) const {
   view.layer_passes = opaque_ > 0 ? layer_passes(view.o.z) : 1.0F;
   view.mirror_loss = mirror_mean_loss_ > 0 ? mirror_loss(view.o.z) : 0.0F;
   view.glass_loss = glass_ > 0 && view.side->mean_loss > 0 ? glass_loss(*view.side, view.o.z) : 0.0F;
+  if (alpha_x_ > 0) view.eye = facets_.eye(view.o);
   choose_lobes(view);
   return true;
 }
@@ -355,44 +345,40 @@ void Bsdf::choose_lobes(View& view) const {
 // -------------------------------------------------------------------------------------
 
 void Bsdf::add_coat(const View& view, const Vector3f& i, Scattered& result) const {
-  const Ggx ggx(coat_alpha_, coat_alpha_);
+  const Ggx::Eye eye = coat_facets_.eye(view.o);
   const Vector3f h = glm::normalize(view.o + i);
-  const float density = ggx.density(h);
+  const float density = coat_facets_.density(h);
   const float fresnel =
       fresnel_dielectric(std::clamp(glm::dot(view.o, h), 0.0F, 1.0F), coat_eta_).reflectance;
-  result.value += Color3f(coat_share_ * fresnel * density * ggx.joint_visibility(view.o, i) * i.z);
-  result.pdf += view.p_coat * ggx.bounded_reflection_pdf(view.o, density);
+  result.value += Color3f(coat_share_ * fresnel * density * coat_facets_.joint_visibility(eye, i) * i.z);
+  result.pdf += view.p_coat * coat_facets_.bounded_reflection_pdf(eye, density);
 }
 
 void Bsdf::add_facet_reflection(const View& view, const Vector3f& i, Scattered& result) const {
-  const Ggx ggx(alpha_x_, alpha_y_);
   const Vector3f h = glm::normalize(view.o + i);
-  const float c = std::clamp(glm::dot(view.o, h), 0.0F, 1.0F);
-  const float density = ggx.density(h);
-  const FacetShares shares = facet_shares(view, c);
-  result.value += shares.reflected * (density * ggx.joint_visibility(view.o, i) * i.z);
-  // The density of visible normals over 4 c, which stays finite where c is 0.
-  const float pdf = glass_ > 0 ? reflect_probability(shares.reflected, shares.through) * density /
-                                     (2 * (view.o.z + ggx.stretch(view.o)))
-                               : ggx.bounded_reflection_pdf(view.o, density);
+  const float density = facets_.density(h);
+  const FacetShares shares = facet_shares(view, std::clamp(glm::dot(view.o, h), 0.0F, 1.0F));
+  result.value += shares.reflected * (density * facets_.joint_visibility(view.eye, i) * i.z);
+  const float pdf = glass_ > 0 ? reflect_probability(shares.reflected, shares.through) *
+                                     facets_.visible_reflection_pdf(view.eye, density)
+                               : facets_.bounded_reflection_pdf(view.eye, density);
   result.pdf += view.p_facet * pdf;
 }
 
+// Through a thin pane the reflection goes on as its mirror image.
+void Bsdf::add_thin_transmission(const View& view, const Vector3f& i, Scattered& result) const {
+  const Vector3f mirrored(i.x, i.y, -i.z);
+  const Vector3f h = glm::normalize(view.o + mirrored);
+  const float density = facets_.density(h);
+  const FacetShares shares = facet_shares(view, std::clamp(glm::dot(view.o, h), 0.0F, 1.0F));
+  result.value += shares.through * (density * facets_.joint_visibility(view.eye, mirrored) * mirrored.z);
+  result.pdf += view.p_facet * (1 - reflect_probability(shares.reflected, shares.through)) *
+                facets_.visible_reflection_pdf(view.eye, density);
+}
+
 // Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equations 16, 17 and 21,
-// with indices relative to that on o's side, and light squeezed. Through a thin pane the reflection goes on
-// as its mirror image.
+// with indices relative to that on o's side, and light squeezed.
 void Bsdf::add_facet_transmission(const View& view, const Vector3f& i, Scattered& result) const {
-  const Ggx ggx(alpha_x_, alpha_y_);
-  if (is_thin_) {
-    const Vector3f mirrored(i.x, i.y, -i.z);
-    const Vector3f h = glm::normalize(view.o + mirrored);
-    const float density = ggx.density(h);
-    const FacetShares shares = facet_shares(view, std::clamp(glm::dot(view.o, h), 0.0F, 1.0F));
-    result.value += shares.through * (density * ggx.joint_visibility(view.o, mirrored) * mirrored.z);
-    result.pdf += view.p_facet * (1 - reflect_probability(shares.reflected, shares.through)) * density /
-                  (2 * (view.o.z + ggx.stretch(view.o)));
-    return;
-  }
   const float eta = view.side->eta;
   Vector3f h = view.o + eta * i;
   const float length = glm::length(h);
@@ -400,12 +386,13 @@ void Bsdf::add_facet_transmission(const View& view, const Vector3f& i, Scattered
   h /= h.z < 0 ? -length : length;
   const float c = glm::dot(view.o, h), through = -glm::dot(i, h);
   if (!(c > 0 && through > 0)) return;
-  const float density = ggx.density(h);
+  const float density = facets_.density(h);
   const FacetShares shares = facet_shares(view, std::min(1.0F, c));
   const float jacobian = through / (length * length);  // times eta^2
-  result.value += shares.through * (ggx.visible(view.o) * ggx.visible(i) * density * c * jacobian / view.o.z);
+  const float masking = facets_.visible(view.eye) * facets_.visible(i);
+  result.value += shares.through * (masking * density * c * jacobian / view.o.z);
   result.pdf += view.p_facet * (1 - reflect_probability(shares.reflected, shares.through)) *
-                ggx.visible_pdf(view.o, h, density) * jacobian * eta * eta;
+                facets_.visible_pdf(view.eye, c, density) * jacobian * eta * eta;
 }
 
 // What lies below the coat gets the lesser of what the coat lets through on both ways: as good as the way in
@@ -423,7 +410,9 @@ Bsdf::Scattered Bsdf::scatter(const View& view, const Vector3f& i) const {
     if (view.p_through > 0) {
       result = {matt_transmission(view, cosine) * cosine_pdf(cosine), view.p_through * cosine_pdf(cosine)};
     }
-    if (alpha_x_ > 0 && glass_ > 0) add_facet_transmission(view, i, result);
+    if (alpha_x_ > 0 && glass_ > 0) {
+      is_thin_ ? add_thin_transmission(view, i, result) : add_facet_transmission(view, i, result);
+    }
   }
   if (coat_ > 0) {
     const bool is_i_inside = !is_thin_ && (glass_ > 0 || passing_ > 0) && view.is_below == is_reflection;
@@ -443,9 +432,10 @@ Bsdf::Scattered Bsdf::scatter(const Vector3f& out, const Vector3f& in) const {
     const float pdf = cosine_pdf(std::abs(cosine));
     return {color_ * pdf, pdf};
   }
-  View view;
-  if (!look(out, view)) return {};
-  return scatter(view, {glm::dot(tangent_, in), glm::dot(bitangent_, in), view.is_below ? -cosine : cosine});
+  const View* view = look(out);
+  if (view == nullptr) return {};
+  return scatter(*view,
+                 {glm::dot(tangent_, in), glm::dot(bitangent_, in), view->is_below ? -cosine : cosine});
 }
 
 Color3f Bsdf::evaluate(const Vector3f& out, const Vector3f& in) const { return scatter(out, in).value; }
@@ -464,8 +454,9 @@ Color3f Bsdf::evaluate(const Vector3f& out, const Vector3f& in, float& pdf) cons
 bool Bsdf::sample(const Vector3f& out, float u_lobe, const Vector2f& u, BsdfSample& sample) const {
   if (is_black_) return false;
   if (is_matt_) return sample_matt(out, u, sample);
-  View view;
-  if (!look(out, view)) return false;
+  const View* seen = look(out);
+  if (seen == nullptr) return false;
+  const View& view = *seen;
   const Vector3f& o = view.o;
   const Vector3f mirrored = to_world(view, {-o.x, -o.y, o.z});
   if (u_lobe < view.p_mirror) return finish_delta(sample, mirrored, mirror_ * color_, view.p_mirror, false);
@@ -480,7 +471,7 @@ bool Bsdf::sample(const Vector3f& out, float u_lobe, const Vector2f& u, BsdfSamp
       const Color3f share((coat_share_ / coat_) * (1 - view.coat_passes));
       return finish_delta(sample, mirrored, share, view.p_coat, false);
     }
-    const Vector3f h = Ggx(coat_alpha_, coat_alpha_).sample_bounded(o, u);
+    const Vector3f h = coat_facets_.sample_bounded(coat_facets_.eye(o), u);
     i = 2 * glm::dot(o, h) * h - o;
     if (!(i.z > 0)) return false;
   } else if ((u_lobe -= view.p_coat) < view.p_facet) {
@@ -492,7 +483,7 @@ bool Bsdf::sample(const Vector3f& out, float u_lobe, const Vector2f& u, BsdfSamp
     // What rounding leaves over is the last lobe's that there is.
     if (u_lobe - view.p_facet >= view.p_back ? view.p_through > 0 : !(view.p_back > 0)) i.z = -i.z;
   }
-  i = glm::normalize(i);
+  i *= 1.5F - 0.5F * glm::dot(i, i);  // of unit length but for rounding: a step of Newton's
   const Scattered scattered = scatter(view, i);
   if (!(scattered.pdf > 0 && scattered.pdf < kInfinity)) return false;
   sample.direction = to_world(view, i);
@@ -515,7 +506,11 @@ bool Bsdf::sample_matt(const Vector3f& out, const Vector2f& u, BsdfSample& sampl
   const Vector3f direction = i.x * tangent + i.y * bitangent + (is_above ? i.z : -i.z) * normal_;
   const float geometric = glm::dot(geometric_normal_, direction);
   if (!(i.z > 0) || !(is_above ? geometric > 0 : geometric < 0)) return false;
-  sample = {direction, color_, i.z * kInversePi, false, false};
+  // One by one: a whole struct at once is put together in memory first, for twice the time.
+  sample.direction = direction;
+  sample.weight = color_;
+  sample.pdf = i.z * kInversePi;
+  sample.is_delta = sample.is_transmission = false;
   return true;
 }
 
@@ -537,8 +532,7 @@ bool Bsdf::sample_smooth_facet(const View& view, float u_lobe, const Vector3f& o
 }
 
 bool Bsdf::sample_rough_facet(const View& view, float u_lobe, const Vector2f& u, Vector3f& i) const {
-  const Ggx ggx(alpha_x_, alpha_y_);
-  const Vector3f h = glass_ > 0 ? ggx.sample_visible(view.o, u) : ggx.sample_bounded(view.o, u);
+  const Vector3f h = glass_ > 0 ? facets_.sample_visible(view.eye, u) : facets_.sample_bounded(view.eye, u);
   const float c = glm::dot(view.o, h);
   if (!(c > 0)) return false;
   i = 2 * c * h - view.o;
@@ -560,7 +554,11 @@ bool Bsdf::finish_delta(BsdfSample& sample, const Vector3f& direction, const Col
   const float cosine = glm::dot(normal_, direction), geometric = glm::dot(geometric_normal_, direction);
   if (!((cosine > 0 && geometric > 0) || (cosine < 0 && geometric < 0))) return false;
   if (!(probability > 0)) return false;
-  sample = {direction, share / probability, probability, true, is_transmission};
+  sample.direction = direction;
+  sample.weight = share / probability;
+  sample.pdf = probability;
+  sample.is_delta = true;
+  sample.is_transmission = is_transmission;
   return true;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "materials/albedo_tables.hpp"
+#include "materials/fresnel.hpp"
+#include "materials/ggx.hpp"
 #include "raytracer/material.hpp"
 #include "raytracer/vector3f.hpp"
 
@@ -36,6 +38,8 @@ struct BsdfSample {
 ///   - a coat: facets of index 1.5,
 ///   - facets (GGX) of metal, of the layer over an opaque base, and of glass, with one roughness in common,
 ///   - what scatters as a matt surface does: the opaque base, and what facets pass on among themselves.
+///
+/// Belongs to one thread: it remembers the last `out`, since a path asks for the same one several times.
 class Bsdf {
  public:
   /// Values out of their range count as the nearest within, what is not a number as 0. Textures are left
@@ -56,8 +60,6 @@ class Bsdf {
   bool is_delta() const { return is_delta_; }
 
  private:
-  /// What depends on `out` alone.
-  struct View;
   /// A value times cosine and the density of its direction.
   struct Scattered {
     Color3f value{0};
@@ -65,20 +67,34 @@ class Bsdf {
   };
   /// Shares of light of what facets reflect and let through.
   struct FacetShares {
-    Color3f reflected{0}, through{0};
+    Color3f reflected, through;
   };
   /// What the glass does to light from one side of the surface.
   struct GlassSide {
-    float eta = 1;  ///< the index behind over the one before
+    float eta;  ///< the index behind over the one before
     AxisCell eta_cell;
-    float mean_loss = 0;  ///< what facets hold back of diffuse light
+    float mean_loss;  ///< what facets hold back of diffuse light
     /// Of what they hold back, the share that leaves after all on this side and on the other.
-    float back = 0, through = 0;
+    float back, through;
+  };
+
+  /// What depends on `out` alone.
+  struct View {
+    Vector3f o;      ///< out in the surface's own space, turned upside down where needed so that o.z > 0
+    bool is_below;   ///< it was
+    bool is_inside;  ///< in solid glass, where there is no coat
+    const GlassSide* side;
+    const GlassSide* other_side;
+    Ggx::Eye eye;        ///< of rough facets
+    FacetShares smooth;  ///< of smooth facets
+    float coat_passes, layer_passes, mirror_loss, glass_loss;
+    // How often each lobe is chosen; their sum is 1. `back` and `through` are the matt ones.
+    float p_mirror, p_passing, p_coat, p_facet, p_back, p_through;
   };
 
   void set_up_shares(const Material& material);
   void set_up_frame(const BsdfFrame& frame);
-  void set_up_roughness(const Material& material);
+  void set_up_roughness(const Material& material, bool has_facets);
   void set_up_layers(const Material& material, float outside);
   void set_up_metal(const Material& material, float outside);
   void set_up_sides(const BsdfFrame& frame, float layer_eta);
@@ -92,12 +108,15 @@ class Bsdf {
   float layer_passes(float cosine) const;
   float coat_passes(float cosine, bool is_inside) const;
 
-  bool look(const Vector3f& out, View& view) const;
+  /// Null if out is on the wrong side of a normal.
+  const View* look(const Vector3f& out) const;
+  bool look_anew(const Vector3f& out, View& view) const;
   void choose_lobes(View& view) const;
   Color3f matt_reflection(const View& view, float cosine) const;
   Color3f matt_transmission(const View& view, float cosine) const;
   void add_coat(const View& view, const Vector3f& i, Scattered& result) const;
   void add_facet_reflection(const View& view, const Vector3f& i, Scattered& result) const;
+  void add_thin_transmission(const View& view, const Vector3f& i, Scattered& result) const;
   void add_facet_transmission(const View& view, const Vector3f& i, Scattered& result) const;
   Scattered scatter(const View& view, const Vector3f& i) const;
   Scattered scatter(const Vector3f& out, const Vector3f& in) const;
@@ -109,7 +128,8 @@ class Bsdf {
                     bool is_transmission) const;
   Vector3f to_world(const View& view, const Vector3f& local) const;
 
-  // Only the first two groups are of any use to a purely matt surface, and only they are set then.
+  // Only the first two groups are of any use to a purely matt surface, and only they are set then: most
+  // surfaces are matt.
   Color3f color_;
   bool is_black_, is_matt_, is_delta_;
   Vector3f geometric_normal_, normal_;
@@ -120,15 +140,21 @@ class Bsdf {
   float coat_;                                       // of all but the mirror
   float coat_share_;                                 // times what the mirror leaves
   float alpha_x_, alpha_y_, coat_alpha_;             // 0: smooth
+  Ggx facets_, coat_facets_;                         // where they are rough
   float specular_, layer_eta_, coat_eta_;
   Color3f metal_f0_;
-  ConductorIndex conductor_;
+  ConductorSquares conductor_;
   Color3f metal_mean_;      // of Fresnel's reflectance, diffuse light
   Color3f metal_multiple_;  // what of light held back by facets leaves at last
   float mirror_mean_loss_, layer_mean_passes_;
+  const ReflectionTable* reflection_;
   AlphaCell cell_x_, cell_y_, coat_cell_, glass_cell_x_, glass_cell_y_;
   AxisCell layer_eta_cell_, coat_eta_cell_;
   GlassSide sides_[2];  // outside, inside
+
+  mutable Vector3f looked_from_;
+  mutable bool can_look_;
+  mutable View view_;
 };
 
 }  // namespace raytracer

@@ -43,28 +43,43 @@ inline Color3f fresnel_schlick(const Color3f& f0, float cosine) {
 /// The mean of fresnel_schlick over diffuse light, exact.
 inline Color3f fresnel_schlick_mean(const Color3f& f0) { return f0 + (Color3f(1) - f0) * (1.0F / 21); }
 
-/// The exact reflectance of a metal (Born and Wolf, section 14.2), mean of both polarisations, its index
-/// relative to the medium before it.
-inline Color3f fresnel_conductor(const ConductorIndex& index, float cosine) {
+/// A metal's index relative to the medium before it, squared, as its reflectance takes it. Four channels, the
+/// last idle: so many go at once.
+struct ConductorSquares {
+  alignas(16) float eta2[4], k2[4];
+
+  ConductorSquares() = default;
+  explicit ConductorSquares(const ConductorIndex& index, float outside = 1) {
+    for (int c = 0; c < 3; ++c) {
+      // Bounds that no metal reaches; also what is not a number ends up at one of them.
+      const float eta = std::max(1e-3F, std::min(1e3F, index.eta[c] / outside));
+      const float k = std::max(0.0F, std::min(1e3F, index.k[c] / outside));
+      eta2[c] = eta * eta, k2[c] = k * k;
+    }
+    eta2[3] = k2[3] = 1;
+  }
+};
+
+/// The exact reflectance of a metal (Born and Wolf, section 14.2), mean of both polarisations.
+inline Color3f fresnel_conductor(const ConductorSquares& index, float cosine) {
   const float cosine2 = cosine * cosine, sine2 = 1 - cosine2;
-  Color3f result;
-  for (int c = 0; c < 3; ++c) {
-    const float eta2 = index.eta[c] * index.eta[c], k2 = index.k[c] * index.k[c];
-    // a and b: real and imaginary part of the refracted direction's normal component, times the index.
-    const float difference = eta2 - k2 - sine2;
-    const float length = std::sqrt(difference * difference + 4 * eta2 * k2);
+  alignas(16) float result[4];
+  for (int c = 0; c < 4; ++c) {
+    // length and a: absolute value and real part of the refracted direction's normal component, times the
+    // index; the former squared.
+    const float difference = index.eta2[c] - index.k2[c] - sine2;
+    const float length = std::sqrt(difference * difference + 4 * index.eta2[c] * index.k2[c]);
     const float a = std::sqrt(std::max(0.0F, 0.5F * (length + difference)));
     const float s_sum = length + cosine2, s_cross = 2 * a * cosine;
-    const float s = (s_sum - s_cross) / (s_sum + s_cross);
     const float p_sum = cosine2 * length + sine2 * sine2, p_cross = s_cross * sine2;
-    const float p = s * (p_sum - p_cross) / (p_sum + p_cross);
-    result[c] = std::min(1.0F, 0.5F * (s + p));
+    // s and p = s (p_sum - p_cross) / (p_sum + p_cross), and their mean over one denominator.
+    result[c] = std::min(1.0F, (s_sum - s_cross) * p_sum / ((s_sum + s_cross) * (p_sum + p_cross)));
   }
-  return result;
+  return {result[0], result[1], result[2]};
 }
 
 /// The mean of fresnel_conductor over diffuse light: Gauss and Jacobi's three points for the weight 2 mu.
-inline Color3f fresnel_conductor_mean(const ConductorIndex& index) {
+inline Color3f fresnel_conductor_mean(const ConductorSquares& index) {
   return 0.13965396F * fresnel_conductor(index, 0.21234054F) +
          0.45848221F * fresnel_conductor(index, 0.59053314F) +
          0.40186383F * fresnel_conductor(index, 0.91141204F);

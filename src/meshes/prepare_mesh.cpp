@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/display_curve.hpp"
 #include "core/numeric.hpp"
 #include "meshes/smooth_normals.hpp"
 #include "raytracer/error.hpp"
@@ -46,6 +47,14 @@ void turn_around(MeshData& mesh) {
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
 }
 
+void make_linear(MeshData& mesh) {
+  for (Color3f& color : mesh.colors) {
+    for (int i = 0; i < 3; ++i)
+      color[i] = static_cast<float>(linear_from_display(static_cast<double>(color[i])));
+  }
+  mesh.has_display_colors = false;
+}
+
 void apply(MeshData& mesh, const Transform& transform) {
   if (transform.is_identity()) return;
   for (Vector3f& p : mesh.positions) p = Vector3f(transform.point(Vector3d(p)));
@@ -71,6 +80,7 @@ void prepare_mesh(MeshData& mesh, const MeshOptions& options, const Transform& t
     mesh.normals.clear();
     if (*options.smooth > 0) smooth_normals(mesh, *options.smooth);
   }
+  if (options.linear_colors && mesh.has_display_colors) make_linear(mesh);
   apply(mesh, to_world * own_transform(mesh, options));
   mesh.positions.reserve(mesh.positions.size() + 1);  // see TriangleMesh
 }

@@ -34,11 +34,10 @@ inline void complete_frame(const Vector3f& axis, Vector3f& first, Vector3f& seco
 /// square keeps areas and neighbours together (Shirley and Chiu 1997).
 inline Vector3f sample_cosine(const Vector2f& u) {
   const float a = 2 * u.x - 1, b = 2 * u.y - 1;
-  if (a == 0 && b == 0) return {0, 0, 1};
   const bool is_wide = std::abs(a) > std::abs(b);
-  const float radius = is_wide ? a : b;
-  const float eighth = 0.125F * (is_wide ? b / a : a / b);  // -1/8 .. 1/8 of a turn
-  const float x = 6.283185307179586F * eighth, x2 = x * x;
+  const float radius = is_wide ? a : b, other = is_wide ? b : a;
+  // The angle from the nearer axis, at most an eighth of a turn; at the centre any.
+  const float x = 0.7853981633974483F * other / (radius == 0 ? 1.0F : radius), x2 = x * x;
   const float sine = x * (1 + x2 * (-1.0F / 6 + x2 * (1.0F / 120 + x2 * (-1.0F / 5040))));
   const float cosine = 1 + x2 * (-0.5F + x2 * (1.0F / 24 + x2 * (-1.0F / 720 + x2 * (1.0F / 40320))));
   return {radius * (is_wide ? cosine : sine), radius * (is_wide ? sine : cosine),

@@ -253,7 +253,8 @@ bool Accelerator::is_occluded(const Ray3f& ray) const {
 
 std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hits,
                                   Coherence coherence) const {
-  RTCRayHit16 query{};
+  RTCRayHit16 query;
+  if (rays.size() < kMostRays) query = {};  // the lanes that nobody fills
   std::uint32_t answer = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     Ray3f rest = rays[i];
@@ -279,7 +280,8 @@ std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hi
 std::uint32_t Accelerator::is_occluded(std::span<const Ray3f> rays, Coherence coherence) const {
   std::uint32_t answer = 0;
   if (tree_->scene != nullptr) {
-    RTCRay16 query{};
+    RTCRay16 query;
+    if (rays.size() < kMostRays) query = {};
     for (std::size_t i = 0; i < rays.size(); ++i) set_lane(query, i, rays[i]);
     embree::occluded(ValidLanes(query, rays.size()).lane, tree_->scene, query, coherence);
     for (std::size_t i = 0; i < rays.size(); ++i) answer |= std::uint32_t{query.tfar[i] < 0} << i;

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/numeric.hpp"
@@ -226,8 +228,8 @@ struct LightSet::Parts {
   // The way from a hit to its emitter: emitter = start + rank of the shape.
   std::vector<std::uint32_t> emitter_of_shape;   // of the scene's own shapes; kNone
   std::vector<std::uint32_t> start_of_instance;  // kNone
-  std::vector<std::uint32_t> shared_of_instance;
-  std::vector<std::vector<std::uint32_t>> rank_in_shared;  // per shared shapes and shape; empty: none shines
+  std::vector<std::uint32_t> variant_of_instance;
+  std::vector<std::vector<std::uint32_t>> rank_in_variant;  // per shared shapes and shape; empty: none shines
 
   explicit Parts(const SceneDescription& scene);
 
@@ -278,29 +280,33 @@ void LightSet::Parts::gather_own(const SceneDescription& scene, std::vector<Ligh
   }
 }
 
+// Instances of the same shapes with the same material in place of the shapes' own shine alike: one variant.
 void LightSet::Parts::gather_instances(const SceneDescription& scene, std::vector<LightItem>& items) {
-  std::vector<std::vector<std::uint32_t>> shining_of(scene.shared.size());
-  rank_in_shared.resize(scene.shared.size());
-  for (std::size_t s = 0; s < scene.shared.size(); ++s) {
-    const SharedShapes& shared = *scene.shared[s];
-    for (std::uint32_t i = 0; i < shared.size(); ++i) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> variants;
+  std::vector<std::vector<std::uint32_t>> shining_of;
+  const auto add_variant = [&](std::uint32_t i) {
+    const SharedShapes& shared = *scene.shared[scene.instances[i].shared];
+    std::vector<std::uint32_t>& shining_here = shining_of.emplace_back();
+    std::vector<std::uint32_t>& rank = rank_in_variant.emplace_back();
+    for (std::uint32_t k = 0; k < shared.size(); ++k) {
+      const Material& material = scene.material(i, k);
       ShiningShape shining;
-      if (!shared.material_of(i).is_emissive() ||
-          !gather_shape(shared.shape(i), shared.material_of(i), shining)) {
-        continue;
-      }
-      if (rank_in_shared[s].empty()) rank_in_shared[s].assign(shared.size(), kNone);
-      rank_in_shared[s][i] = static_cast<std::uint32_t>(shining_of[s].size());
-      shining_of[s].push_back(static_cast<std::uint32_t>(shapes.size()));
+      if (!material.is_emissive() || !gather_shape(shared.shape(k), material, shining)) continue;
+      if (rank.empty()) rank.assign(shared.size(), kNone);
+      rank[k] = static_cast<std::uint32_t>(shining_here.size());
+      shining_here.push_back(static_cast<std::uint32_t>(shapes.size()));
       shapes.push_back(std::move(shining));
     }
-  }
+  };
   start_of_instance.assign(scene.instances.size(), kNone);
-  shared_of_instance.resize(scene.instances.size());
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+  variant_of_instance.resize(scene.instances.size());
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    shared_of_instance[i] = instance.shared;
-    if (shining_of[instance.shared].empty()) continue;
+    const auto [known, is_new] = variants.try_emplace({instance.shared, instance.material},
+                                                      static_cast<std::uint32_t>(shining_of.size()));
+    if (is_new) add_variant(i);
+    variant_of_instance[i] = known->second;
+    if (shining_of[known->second].empty()) continue;
     std::uint32_t placement = kNone;
     if (!instance.is_identity()) {
       const Placement where(instance);
@@ -309,7 +315,7 @@ void LightSet::Parts::gather_instances(const SceneDescription& scene, std::vecto
       placements.push_back(where);
     }
     start_of_instance[i] = static_cast<std::uint32_t>(emitters.size());
-    for (const std::uint32_t shining : shining_of[instance.shared]) {
+    for (const std::uint32_t shining : shining_of[known->second]) {
       emitters.push_back({shining, placement});
       items.push_back(
           item_of(shapes[shining], &instance, placement == kNone ? nullptr : &placements[placement]));
@@ -345,7 +351,7 @@ std::uint32_t LightSet::Parts::emitter_of(const Hit& hit) const {
   if (hit.instance == kNoInstance) return emitter_of_shape[hit.shape];
   const std::uint32_t start = start_of_instance[hit.instance];
   if (start == kNone) return kNone;
-  const std::uint32_t rank = rank_in_shared[shared_of_instance[hit.instance]][hit.shape];
+  const std::uint32_t rank = rank_in_variant[variant_of_instance[hit.instance]][hit.shape];
   return rank == kNone ? kNone : start + rank;
 }
 

@@ -50,6 +50,12 @@ inline Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
   return {point.offset_position, direction};
 }
 
+/// With what the vertices of a mesh say.
+inline Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hit, const Material& material) {
+  if (!scene.has_vertex_colors() || !material.takes_vertex_colors) return material.color;
+  return material.color * scene.detail_at(ray, hit).color;
+}
+
 inline float mirror_share(const Material& material) { return glm::clamp(material.shininess, 0.0f, 1.0f); }
 
 /// What a ray sees that hits nothing, in the 0..255 units of the buffers.

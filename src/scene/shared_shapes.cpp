@@ -104,7 +104,7 @@ SurfacePoint placed_surface(const SurfacePoint& own, const glm::dmat3& to_world,
   const glm::dmat3 normals = glm::transpose(to_own);
   point.normal = Vector3f(glm::normalize(normals * Vector3d(own.normal)));
   point.shading_normal = Vector3f(glm::normalize(normals * Vector3d(own.shading_normal)));
-  point.shadow_offset = glm::mat3(to_world) * own.shadow_offset;
+  point.shadow_offset = Vector3f(to_world * Vector3d(own.shadow_offset));
   // Besides the shape's own error: what a further ray loses whose origin Embree takes into the shapes' own
   // space in single precision (a sum of three products and a translation that is such a sum itself) by a
   // matrix that it has inverted in single precision; and twice the rounding of a position in the world.

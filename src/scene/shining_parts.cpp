@@ -30,15 +30,34 @@ Color3f share_through(const Material& material, float cosine) {
   return (1 - material.metallic) * material.transmission * (1 - reflected) * material.color;
 }
 
+// Whether anything in that place may shine or let light pass. Most places are of shapes of which none does.
+bool may_matter(const SceneDescription& scene, const Instance& instance, std::vector<std::int8_t>& known) {
+  const auto matters = [](const Material& m) { return largest(m.emission) > 0 || lets_light_pass(m); };
+  if (instance.material != Instance::kOwnMaterials && matters(scene.materials[instance.material]))
+    return true;
+  std::int8_t& answer = known[instance.shared];
+  if (answer >= 0) return answer != 0;
+  const SharedShapes& shared = *scene.shared[instance.shared];
+  answer = 0;
+  for (std::uint32_t i = 0; i < shared.size() && answer == 0; ++i)
+    answer = matters(shared.material_of(i)) ? 1 : 0;
+  return answer != 0;
+}
+
 }  // namespace
 
 ShiningParts::ShiningParts(const SceneDescription& scene) {
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     add(*scene.shapes[i], scene.materials[scene.material_of[i]], nullptr);
   }
-  for (const Instance& instance : scene.instances) {
+  std::vector<std::int8_t> known(scene.shared.size(), -1);
+  for (std::uint32_t place = 0; place < scene.instances.size(); ++place) {
+    const Instance& instance = scene.instances[place];
     const SharedShapes& shared = *scene.shared[instance.shared];
-    for (std::uint32_t i = 0; i < shared.size(); ++i) add(shared.shape(i), shared.material_of(i), &instance);
+    if (!may_matter(scene, instance, known)) continue;
+    for (std::uint32_t i = 0; i < shared.size(); ++i) {
+      add(shared.shape(i), scene.material(place, i), &instance);
+    }
   }
 }
 

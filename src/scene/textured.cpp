@@ -48,10 +48,12 @@ Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfaceP
   const Material& material = material_of(hit);
   const SurfaceDetail detail = detail_at(ray, hit);
   const TexturePoint point = texture_point(ray, surface, detail, width);
-  surface.shading_normal = perturbed_normal(material, detail, point, surface.shading_normal);
-  Material result = material_at(material, point);
-  if (material.takes_vertex_colors) result.color *= detail.color;
-  return result;
+  if (material.textures != nullptr) {
+    surface.shading_normal = perturbed_normal(material, detail, point, surface.shading_normal);
+  }
+  Material here = material_at(material, point);
+  if (here.takes_vertex_colors) here.color *= detail.color;
+  return here;
 }
 
 float Scene::alpha_at(const Ray3f& ray, const Hit& hit) const {

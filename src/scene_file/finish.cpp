@@ -239,6 +239,10 @@ bool has_shape_that_shines(const SceneDescription& scene) {
       std::ranges::any_of(scene.material_of, [&](std::uint32_t i) { return shines(scene.materials[i]); })) {
     return true;
   }
+  const auto shines_here = [&](const Instance& instance) {
+    return instance.material != Instance::kOwnMaterials && shines(scene.materials[instance.material]);
+  };
+  if (std::ranges::any_of(scene.instances, shines_here)) return true;
   return std::ranges::any_of(scene.shared, [&](const auto& shared) {
     for (std::uint32_t i = 0; i < shared->size(); ++i) {
       if (shines(shared->material_of(i))) return true;

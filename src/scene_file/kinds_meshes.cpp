@@ -52,7 +52,14 @@ constexpr PropertyRow kMesh[] = {
         .or_else("as it is"),
 };
 
-MeshOptions options_of(const MeshInput& in) { return {in.smooth, in.flip, in.recenter, in.fit.value_or(0)}; }
+MeshOptions options_of(const MeshInput& in) {
+  MeshOptions options;
+  options.smooth = in.smooth;
+  options.flip = in.flip;
+  options.recenter = in.recenter;
+  options.fit = in.fit.value_or(0);
+  return options;
+}
 
 Vector3f vector_at(const Numbers& numbers, std::size_t i) {
   return Vector3f(Vector3d(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]));

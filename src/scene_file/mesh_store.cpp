@@ -17,7 +17,8 @@ namespace {
 
 std::string key_of(const std::string& path, const MeshOptions& options) {
   const double smooth = options.smooth.value_or(-1);
-  return fmt::format("{} {} {} {} {}", smooth, options.flip, options.recenter, options.fit, path);
+  return fmt::format("{} {} {} {} {} {}", smooth, options.flip, options.recenter, options.linear_colors,
+                     options.fit, path);
 }
 
 template <class T>
@@ -151,19 +152,32 @@ void MeshStore::add_copy(const MeshUse& use, std::vector<Material>& materials, S
   add_parts(data, use.material, materials_of(*use.mesh, materials), use.takes_all, list);
 }
 
-std::shared_ptr<const SharedShapes> MeshStore::share(MeshFile& mesh, bool takes_all,
-                                                     std::shared_ptr<MeshData> data) {
+std::shared_ptr<const SharedShapes> MeshStore::share(const MeshFile& mesh, bool takes_all) {
   std::vector<Material> materials(1);
   std::vector<std::uint32_t> of_file;
   for (const MeshData::NamedMaterial& said : mesh.materials) {
     of_file.push_back(static_cast<std::uint32_t>(materials.size()));
     materials.push_back(material_from_mtl(said));
   }
-  prepare_mesh(*data, mesh.options);
   ShapeBatch list;
-  add_parts(data, 0, of_file, takes_all, list);
+  add_parts(mesh.own, 0, of_file, takes_all, list);
   return std::make_shared<const SharedShapes>(std::move(list.shapes), std::move(list.material_of),
                                               std::move(materials));
+}
+
+bool MeshStore::add_instance(const MeshUse& use, bool keeps_data, ShapeStore& store) {
+  MeshFile& mesh = *use.mesh;
+  if (mesh.own == nullptr) {
+    if (!need_data(mesh, use.place)) return false;
+    const auto own = keeps_data ? std::make_shared<MeshData>(*mesh.data) : std::move(mesh.data);
+    prepare_mesh(*own, mesh.options);
+    mesh.own = own;
+  }
+  const bool takes_all = use.takes_all && !mesh.materials.empty();
+  auto& shared = mesh.shared[takes_all];
+  if (shared == nullptr) shared = share(mesh, takes_all);
+  store.add_instance(shared, use.to_world, use.material);
+  return true;
 }
 
 // A mesh that stands in one place for all times is put there, point by point; one that stands in more, or
@@ -175,12 +189,7 @@ void MeshStore::place(MeshFile& mesh, const std::vector<const MeshUse*>& uses,
       std::ranges::count_if(uses, is_still) == 1 ? *std::ranges::find_if(uses, is_still) : nullptr;
   for (const MeshUse* use : uses) {
     if (use == alone) continue;
-    auto& shared = mesh.shared[use->takes_all && !mesh.materials.empty()];
-    if (shared == nullptr) {
-      if (!need_data(mesh, use->place)) return;
-      shared = share(mesh, use->takes_all, std::make_shared<MeshData>(*mesh.data));
-    }
-    store.add_instance(shared, use->to_world, use->material);
+    if (!add_instance(*use, alone != nullptr, store)) return;
   }
   if (alone != nullptr && !store.has_still()) {
     if (!need_data(mesh, alone->place)) return;

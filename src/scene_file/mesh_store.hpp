@@ -31,7 +31,9 @@ struct MeshFile {
   std::string problem;             ///< why it can't be read; empty if it can
   std::vector<MeshData::NamedMaterial> materials;
   std::optional<SceneHash> hash;  ///< of what was read
-  /// In its own space, made when it stands in more than one place, or moves. The first of their materials
+  /// With its options, in its own space; made when it stands in more than one place, or moves.
+  std::shared_ptr<const MeshData> own;
+  /// The same as shapes. The first of their materials
   /// gives way to the instance's; of [1] it is the material of all.
   std::array<std::shared_ptr<const SharedShapes>, 2> shared;
 };
@@ -67,7 +69,8 @@ class MeshStore {
   void load(MeshFile& mesh, const Place& place);
   bool need_data(MeshFile& mesh, const Place& place);
   const std::vector<std::uint32_t>& materials_of(const MeshFile& mesh, std::vector<Material>& materials);
-  std::shared_ptr<const SharedShapes> share(MeshFile& mesh, bool takes_all, std::shared_ptr<MeshData> data);
+  static std::shared_ptr<const SharedShapes> share(const MeshFile& mesh, bool takes_all);
+  bool add_instance(const MeshUse& use, bool keeps_data, ShapeStore& store);
   void place(MeshFile& mesh, const std::vector<const MeshUse*>& uses, std::vector<Material>& materials,
              ShapeStore& store);
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numeric.hpp"
 #include "raytracer/error.hpp"
 #include "shapes/checks.hpp"
-#include "shapes/surface.hpp"
+#include "shapes/part_sampling.hpp"
 #include "shapes/triangle_hit.hpp"
 #include "shapes/triangle_sampling.hpp"
 
@@ -29,11 +30,20 @@ struct Weights {
   }
 };
 
-// What the traversal's own arithmetic, in single precision and relative to the ray's origin, is off where a
-// ray starts beside a triangle: the corners seen from there are rounded (1), and the normal, a product of two
-// edges made of those, once more (4 of the squared length of the longest edge).
-double traversal_error(double longest_edge, double twice_area) {
-  return kFloatRounding * longest_edge * (1 + 4 * longest_edge * longest_edge / twice_area);
+// As shapes::rounded_surface() bounds it, but all of it from above, so that single precision will do: the
+// rounding of the position and of the origin of a ray that starts there, and of the normal over the extent of
+// the triangle. On top comes what the traversal's own arithmetic, in single precision and relative to the
+// ray's origin, is off beside a triangle: the corners seen from there are rounded (1), and the normal, a
+// product of two edges made of those, once more (4 of the squared length of the longest edge).
+float error_bound(const Vector3f& position, const Vector3f& normal, const Vector3f& extent,
+                  float twice_area) {
+  constexpr float kSlack = 1.01f, kRounding = static_cast<float>(kFloatRounding);
+  const float rounding = glm::dot(glm::abs(normal), 2.0f * glm::abs(position) + extent);
+  const float squared = glm::dot(extent, extent);
+  // Of a sliver the normal is worth little, but the rays that could meet it again are few.
+  constexpr float kMostSliver = 64;
+  const float traversal = std::sqrt(squared) * (1 + std::min(kMostSliver, 4 * squared / twice_area));
+  return kSlack * kRounding * (rounding + traversal);
 }
 
 // J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4, listing 4-1: the point is
@@ -86,15 +96,16 @@ SurfacePoint TriangleMesh::surface_at(const Ray3f& ray, const Hit& hit) const {
   const Vector3d ab = p[1] - p[0], ac = p[2] - p[0];
   const Vector3d position = p[0] + weights.b * ab + weights.c * ac;
   const Vector3d across = glm::cross(ab, ac);
-  const double twice_area = glm::length(across);
-  const Vector3d normal = across / twice_area;
+  const double twice_area = std::sqrt(glm::dot(across, across));
+  const Vector3d normal = (1 / twice_area) * across;
 
-  shapes::SurfaceBound bound;
-  bound.extent = glm::max(p[0], glm::max(p[1], p[2])) - glm::min(p[0], glm::min(p[1], p[2]));
-  const double extent = glm::length(bound.extent);
-  bound.arithmetic = 8 * kDoubleRounding * (glm::length(p[0]) + extent) + traversal_error(extent, twice_area);
-  SurfacePoint point = shapes::rounded_surface(position, normal, {hit.u, hit.v}, bound);
-  if (!data_->uvs.empty()) point.uv = weights.mix(data_->uvs[t[0]], data_->uvs[t[1]], data_->uvs[t[2]]);
+  SurfacePoint point;
+  point.position = Vector3f(position);
+  point.normal = Vector3f(normal);
+  point.shading_normal = point.normal;
+  const Vector3f &a = data_->positions[t[0]], &b = data_->positions[t[1]], &c = data_->positions[t[2]];
+  const Vector3f extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+  point.position_error = error_bound(point.position, point.normal, extent, static_cast<float>(twice_area));
   if (data_->normals.empty()) return point;
 
   const std::array<Vector3d, 3> n = {Vector3d(data_->normals[t[0]]), Vector3d(data_->normals[t[1]]),
@@ -155,18 +166,17 @@ bool TriangleMesh::sample_part(std::uint32_t part, const Vector3f& from, const V
   hit.u = static_cast<float>(weights.x);
   hit.v = static_cast<float>(weights.y);
   const SurfacePoint point = surface_at({from, Vector3f(a) - from}, hit);
-  sample.position = point.position;
-  sample.position_error = point.position_error;
-  sample.normal = point.normal;
-  sample.pdf = static_cast<float>(seen.pdf(a + weights.x * ab + weights.y * ac));
-  return sample.pdf > 0 && std::isfinite(sample.pdf);
+  sample.u = hit.u;
+  sample.v = hit.v;
+  return shapes::set_sample(point, shapes::usable_density(seen.pdf(a + weights.x * ab + weights.y * ac)),
+                            sample);
 }
 
 float TriangleMesh::part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const {
   const Triangle& t = triangle(part);
   const Vector3d a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
   const shapes::SeenTriangle seen(a, b, c, glm::normalize(glm::cross(b - a, c - a)), Vector3d(from));
-  return seen.is_seen() ? static_cast<float>(seen.pdf(Vector3d(point.position))) : 0;
+  return seen.is_seen() ? shapes::usable_density(seen.pdf(Vector3d(point.position))) : 0;
 }
 
 }  // namespace raytracer

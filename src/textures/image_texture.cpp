@@ -98,8 +98,11 @@ class ImageTexture : public Texture {
 
   Color3f average(const Vector2f& uv, const Vector2f& dx, const Vector2f& dy) const {
     if (pyramid_->level_count() == 1) return pyramid_->bilinear(0, uv, wrap_);
-    const Ellipse ellipse = ellipse_of(dx * size_, dy * size_);
-    if (ellipse.long_variance == 0) return pyramid_->bilinear(0, uv, wrap_);
+    const Vector2f right = dx * size_, below = dy * size_;  // in texels
+    // Half a texel is blurred more by being bilinear than by its size.
+    constexpr float kSmall = 0.25f;
+    if (glm::dot(right, right) + glm::dot(below, below) < kSmall) return pyramid_->bilinear(0, uv, wrap_);
+    const Ellipse ellipse = ellipse_of(right, below);
     constexpr float kEndless = 1e15f;  // so far beyond any picture that only the average of all is left
     if (!(ellipse.short_variance < kEndless && ellipse.long_variance < kEndless * kEndless)) {
       return pyramid_->bilinear(pyramid_->level_count() - 1, uv, wrap_);

@@ -67,10 +67,12 @@ TexelPyramid::TexelPyramid(std::shared_ptr<const Picture> picture, const TexelUs
   make_table();
   levels_.push_back(base_level());
   if (is_constant()) {
-    make_constant(bilinear(0, Vector2f(0.5f), TextureWrap::kClamp));
+    make_constant(first_texel());
     return;
   }
-  if (table_.empty() && value_of(0.5f) != 0.5f) convert_floats();
+  // A single channel of Radiance's pixels does not stand by itself.
+  const bool is_lone = is_number_ && picture_->type == TexelType::kRgbe;
+  if (table_.empty() && (is_lone || value_of(0.5f) != 0.5f)) convert_floats();
   while (levels_.back().width > 1 || levels_.back().height > 1) add_level();
 }
 
@@ -82,16 +84,15 @@ void TexelPyramid::make_table() {
   for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = value_of(static_cast<float>(i) / most);
 }
 
+std::size_t TexelPyramid::first_used() const {
+  return static_cast<std::size_t>(is_number_ ? first_channel(*picture_, use_.channel) : 0);
+}
+
 TexelPyramid::Level TexelPyramid::base_level() const {
   static constexpr std::array kFormats = {Format::kTableByte, Format::kTableShort, Format::kHalf,
                                           Format::kFloat, Format::kRgbe};
-  Level level{picture_->width, picture_->height, kFormats[static_cast<std::size_t>(picture_->type)],
-              picture_->data.get(), picture_->texel_bytes()};
-  const auto first = static_cast<std::size_t>(first_channel(*picture_, use_.channel));
-  for (std::size_t c = 0; c < 3; ++c) {
-    level.offsets[c] = channel_size(*picture_) * (is_number_ ? first : c);
-  }
-  return level;
+  return {picture_->width, picture_->height, kFormats[static_cast<std::size_t>(picture_->type)],
+          picture_->data.get() + channel_size(*picture_) * first_used(), picture_->texel_bytes()};
 }
 
 bool TexelPyramid::is_constant() const {
@@ -100,12 +101,21 @@ bool TexelPyramid::is_constant() const {
   return std::memcmp(bytes, bytes + step, picture_->bytes() - step) == 0;
 }
 
+Color3f TexelPyramid::first_texel() const {
+  Color3f color;
+  for (int c = 0; c < 3; ++c) {
+    const int channel = static_cast<int>(first_used()) + (is_number_ ? 0 : c);
+    color[c] = value_of(stored_value(*picture_, picture_->data.get(), channel));
+  }
+  return color;
+}
+
 void TexelPyramid::make_constant(const Color3f& value) {
   levels_.clear();
   owned_bytes_ = sizeof value;
   owned_.push_back(std::make_unique<std::uint8_t[]>(owned_bytes_));
   std::memcpy(owned_.back().get(), &value, sizeof value);
-  levels_.push_back({1, 1, Format::kFloat, owned_.back().get(), sizeof value, {0, 4, 8}});
+  levels_.push_back({1, 1, Format::kFloat, owned_.back().get(), sizeof value});
 }
 
 // Floats that are not the values themselves are made so once, not at every look.
@@ -118,66 +128,61 @@ void TexelPyramid::convert_floats() {
   owned_bytes_ += row * 4 * static_cast<std::size_t>(from.height);
   std::uint8_t* out = owned_.back().get();
   parallel_for(static_cast<std::size_t>(from.height), [&](std::size_t y) {
-    std::vector<float> values(row);
-    decode_row(from, static_cast<int>(y), values.data());
-    for (float& value : values) value = value_of(value);
+    std::vector<float> values;
+    const std::uint8_t* texel = picture_->row(static_cast<int>(y));
+    for (int x = 0; x < from.width; ++x, texel += picture_->texel_bytes()) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        values.push_back(value_of(stored_value(*picture_, texel, static_cast<int>(first_used() + c))));
+      }
+    }
     std::memcpy(out + 4 * row * y, values.data(), 4 * row);
   });
-  levels_.back() = {
-      from.width,     from.height,
-      Format::kFloat, out,
-      4 * channels,   is_number_ ? std::array<std::size_t, 3>{} : std::array<std::size_t, 3>{0, 4, 8}};
+  levels_.back() = {from.width, from.height, Format::kFloat, out, 4 * channels};
 }
 
-// --- looking up
-// ----------------------------------------------------------------------------------------------
+// --- looking up --------------------------------------------------------------------------------------
 
-/// Calls function(decode), decode(texel, c) being channel c of a texel of that level.
+/// Calls function(decode), decode(texel, c) being the c-th of the used channels of a texel of that level.
 template <class Function>
 auto TexelPyramid::with_decoder(const Level& level, const Function& function) const {
-  const std::array<std::size_t, 3> at = level.offsets;
+  using Texel = const std::uint8_t*;
   const float* table = table_.data();
   switch (level.format) {
     case Format::kTableByte:
-      return function([=](const std::uint8_t* texel, std::size_t c) { return table[texel[at[c]]]; });
+      return function([=](Texel texel, std::size_t c) { return table[texel[c]]; });
     case Format::kTableShort:
-      return function([=](const std::uint8_t* texel, std::size_t c) {
-        return table[load<std::uint16_t>(texel + at[c])];
-      });
+      return function([=](Texel texel, std::size_t c) { return table[load<std::uint16_t>(texel + 2 * c)]; });
     case Format::kShort:
-      return function([=](const std::uint8_t* texel, std::size_t c) {
-        return static_cast<float>(load<std::uint16_t>(texel + at[c])) * kShortStep;
+      return function([](Texel texel, std::size_t c) {
+        return static_cast<float>(load<std::uint16_t>(texel + 2 * c)) * kShortStep;
       });
     case Format::kHalf:
-      return function([=](const std::uint8_t* texel, std::size_t c) {
-        return float_from_half(load<std::uint16_t>(texel + at[c]));
-      });
+      return function(
+          [](Texel texel, std::size_t c) { return float_from_half(load<std::uint16_t>(texel + 2 * c)); });
     case Format::kRgbe:
-      return function([=](const std::uint8_t* texel, std::size_t c) {
-        return rgb_from_rgbe(texel)[static_cast<int>(at[c])];
-      });
+      return function([](Texel texel, std::size_t c) { return rgb_from_rgbe(texel)[static_cast<int>(c)]; });
     case Format::kFloat:
       break;
   }
-  return function([=](const std::uint8_t* texel, std::size_t c) { return load<float>(texel + at[c]); });
+  return function([](Texel texel, std::size_t c) { return load<float>(texel + 4 * c); });
 }
 
 namespace {
 
+// std::floor is a call where the processor's own rounding may not be counted on. |x| < 2^31.
+float floor_of(float x) {
+  const auto towards_zero = static_cast<float>(static_cast<int>(x));
+  return towards_zero > x ? towards_zero - 1 : towards_zero;
+}
+
 /// To 0..1, where it is the same picture. Whatever is not a number goes to 0.
 float wrapped(float x, TextureWrap wrap) {
-  switch (wrap) {
-    case TextureWrap::kRepeat:
-      x -= std::floor(x);
-      break;
-    case TextureWrap::kMirror:
-      x -= 2 * std::floor(0.5f * x);
-      if (x > 1) x = 2 - x;
-      break;
-    case TextureWrap::kClamp:
-      break;
-  }
-  return x > 0 ? std::min(x, 1.0f) : 0.0f;
+  if (wrap == TextureWrap::kClamp) return x > 0 ? std::min(x, 1.0f) : 0.0f;
+  constexpr float kWhole = 0x1p23f;  // from here on there are no fractions
+  if (!(std::abs(x) < kWhole)) return 0;
+  if (wrap == TextureWrap::kRepeat) return std::min(x - floor_of(x), 1.0f);
+  const float there_and_back = x - 2 * floor_of(0.5f * x);
+  return there_and_back > 1 ? 2 - there_and_back : there_and_back;
 }
 
 /// The two texels of an axis between whose centres x, 0..1, lies.
@@ -188,50 +193,43 @@ struct Pair {
 
 Pair pair_at(float x, int count, bool repeats) {
   const float position = x * static_cast<float>(count) - 0.5f;
-  const float below = std::floor(position);
+  const float below = floor_of(position);
   Pair pair{static_cast<int>(below), static_cast<int>(below) + 1, position - below};
   if (pair.first < 0) pair.first = repeats ? count - 1 : 0;
   if (pair.second >= count) pair.second = repeats ? 0 : count - 1;
   return pair;
 }
 
-}  // namespace
-
-TexelPyramid::Cell TexelPyramid::cell_at(const Level& level, const Vector2f& uv, TextureWrap wrap) {
-  const bool repeats = wrap == TextureWrap::kRepeat;
-  const Pair x = pair_at(wrapped(uv.x, wrap), level.width, repeats);
-  const Pair y = pair_at(1 - wrapped(uv.y, wrap), level.height, repeats);
-  const auto at = [&](int column, int row) {
-    return level.data + (static_cast<std::size_t>(row) * static_cast<std::size_t>(level.width) +
-                         static_cast<std::size_t>(column)) *
-                            level.texel_bytes;
-  };
-  return {{at(x.first, y.first), at(x.second, y.first), at(x.first, y.second), at(x.second, y.second)},
-          x.weight,
-          y.weight};
-}
-
-// In the form a + t (b - a), which leaves equal values as they are.
+/// Channel c, the texels above and below being decoded; in the form a + t (b - a), which leaves equal values
+/// as they are.
 template <class Decode>
-Color3f TexelPyramid::mix(const Cell& cell, const Decode& decode) const {
-  const auto channel = [&](std::size_t c) {
-    const float upper_left = decode(cell.texels[0], c), lower_left = decode(cell.texels[2], c);
-    const float upper = upper_left + cell.right * (decode(cell.texels[1], c) - upper_left);
-    const float lower = lower_left + cell.right * (decode(cell.texels[3], c) - lower_left);
-    return upper + cell.below * (lower - upper);
-  };
-  if (is_number_) return Color3f(channel(0));
-  return {channel(0), channel(1), channel(2)};
+float mixed(const Decode& decode, const std::uint8_t* upper, const std::uint8_t* lower, const Pair& x,
+            float below, std::size_t step, std::size_t c) {
+  const std::size_t left = step * static_cast<std::size_t>(x.first);
+  const std::size_t right = step * static_cast<std::size_t>(x.second);
+  const float upper_left = decode(upper + left, c), lower_left = decode(lower + left, c);
+  const float above_mixed = upper_left + x.weight * (decode(upper + right, c) - upper_left);
+  const float below_mixed = lower_left + x.weight * (decode(lower + right, c) - lower_left);
+  return above_mixed + below * (below_mixed - above_mixed);
 }
+
+}  // namespace
 
 Color3f TexelPyramid::bilinear(int level, const Vector2f& uv, TextureWrap wrap) const {
   const Level& pixels = levels_[static_cast<std::size_t>(level)];
-  const Cell cell = cell_at(pixels, uv, wrap);
-  return with_decoder(pixels, [&](const auto& decode) { return mix(cell, decode); });
+  const bool repeats = wrap == TextureWrap::kRepeat;
+  const Pair x = pair_at(wrapped(uv.x, wrap), pixels.width, repeats);
+  const Pair y = pair_at(1 - wrapped(uv.y, wrap), pixels.height, repeats);
+  const std::size_t step = pixels.texel_bytes, row = step * static_cast<std::size_t>(pixels.width);
+  const std::uint8_t* upper = pixels.data + row * static_cast<std::size_t>(y.first);
+  const std::uint8_t* lower = pixels.data + row * static_cast<std::size_t>(y.second);
+  return with_decoder(pixels, [&](const auto& decode) {
+    const auto channel = [&](std::size_t c) { return mixed(decode, upper, lower, x, y.weight, step, c); };
+    return is_number_ ? Color3f(channel(0)) : Color3f(channel(0), channel(1), channel(2));
+  });
 }
 
-// --- levels
-// --------------------------------------------------------------------------------------------------
+// --- levels ------------------------------------------------------------------------------------------
 
 template <class Decode>
 void TexelPyramid::decode_with(const Level& level, int y, float* out, const Decode& decode) const {
@@ -281,7 +279,6 @@ void TexelPyramid::add_level() {
   const std::size_t number_bytes = is_short ? 2 : 4;
   Level to{std::max(from.width / 2, 1), std::max(from.height / 2, 1),
            is_short ? Format::kShort : Format::kFloat, nullptr, channels * number_bytes};
-  for (std::size_t c = 0; c < channels; ++c) to.offsets[c] = c * number_bytes;
   const std::size_t row_bytes = to.texel_bytes * static_cast<std::size_t>(to.width);
   owned_.push_back(
       std::make_unique_for_overwrite<std::uint8_t[]>(row_bytes * static_cast<std::size_t>(to.height)));

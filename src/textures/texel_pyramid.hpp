@@ -63,17 +63,13 @@ class TexelPyramid {
   struct Level {
     int width = 0, height = 0;
     Format format = Format::kFloat;
-    const std::uint8_t* data = nullptr;
+    const std::uint8_t* data = nullptr;  // the first of the channels that are used; others follow it
     std::size_t texel_bytes = 0;
-    std::array<std::size_t, 3> offsets = {};  // of red, green and blue, in bytes
-  };
-  /// Where four texels lie and how they are weighted.
-  struct Cell {
-    std::array<const std::uint8_t*, 4> texels = {};  // upper left, upper right, lower left, lower right
-    float right = 0, below = 0;                      // their weights
   };
 
   Level base_level() const;
+  std::size_t first_used() const;  // of the picture's channels
+  Color3f first_texel() const;
   void make_table();
   void convert_floats();
   void make_constant(const Color3f& value);
@@ -82,9 +78,6 @@ class TexelPyramid {
   void decode_row(const Level& level, int y, float* out) const;
   template <class Decode>
   void decode_with(const Level& level, int y, float* out, const Decode& decode) const;
-  static Cell cell_at(const Level& level, const Vector2f& uv, TextureWrap wrap);
-  template <class Decode>
-  Color3f mix(const Cell& cell, const Decode& decode) const;
   template <class Function>
   auto with_decoder(const Level& level, const Function& function) const;
   float value_of(float stored) const;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "unit/make_meshes.hpp"
 
 namespace {
 
@@ -47,6 +48,7 @@ struct Case {
   bool is_closed = true;
   bool is_convex = true;    // a ray that leaves to the front never meets the shape again
   bool is_spanned = false;  // by edges: a mirror turns the normal around
+  bool is_rounded = false;  // its corners are floats
 };
 
 bool always(const Vector3d&, double) { return true; }
@@ -63,6 +65,22 @@ double torus_side(const Vector3d& p, double ring, double tube) {
   const double rho = std::hypot(p.x, p.z);
   const double near = std::hypot(rho - ring, p.y) - tube, far = std::hypot(rho + ring, p.y) - tube;
   return std::max(near, -far);  // the inner part of a spindle is outside by parity
+}
+
+/// A ball of flat triangles, convex.
+Case mesh_case() {
+  const MeshData ball = ball_mesh(1);
+  const auto side = [ball](const Vector3d& p) {
+    double most = -1;
+    for (const auto& t : ball.triangles) {
+      const Vector3d a(ball.positions[t[0]]), b(ball.positions[t[1]]), c(ball.positions[t[2]]);
+      most = std::max(most, glm::dot(glm::normalize(glm::cross(b - a, c - a)), p - a));
+    }
+    return most;
+  };
+  Case mesh{"mesh", [ball](const Transform& m) { return make_mesh(ball, m); }, side, always};
+  mesh.is_rounded = true;
+  return mesh;
 }
 
 std::vector<Case> closed_cases() {
@@ -93,6 +111,7 @@ std::vector<Case> closed_cases() {
          return make_cylinder(Vector3d(0, -0.8, 0), Vector3d(0, 0.8, 0), 0.5, false, m);
        },
        cylinder_side, always},
+      mesh_case(),
       cone("cone", 0.7, 0),
       cone("cone on its tip", 0, 0.7),
       cone("stump", 0.6, 0.25),
@@ -271,6 +290,8 @@ std::string brackets_surface(const Placed& placed, const SurfacePoint& point) {
     std::swap(front, back);
 
   double noise = 1e-15 * (1 + glm::length(position) / glm::length(placed.to_world.linear[0]));
+  if (placed.kind.is_rounded)
+    noise = 4e-7 * (1 + glm::length(position) / glm::length(placed.to_world.linear[0]));
   if (placed.kind.name == "plane")
     noise += 1e-7 * (1 + glm::length(placed.to_own.point(position)));  // its normal is a float
   if (front < -noise) return complain("front of bound is behind the surface", {front});
@@ -447,8 +468,9 @@ TEST_CASE("a ray that leaves a closed shape inwards crosses its inside", "[shape
     // Beside an edge the rounding may carry the origin out through the neighbouring face; those of a cube are
     // floats.
     const double size = glm::length(placed.to_world.linear[0]);
-    const double noise =
-        placed.kind.name == "cube" ? 1e-7 * glm::length(Vector3d(point.position)) / size : 1e-13;
+    const double noise = placed.kind.name == "cube" || placed.kind.is_rounded
+                             ? 1e-7 * glm::length(Vector3d(point.position)) / size
+                             : 1e-13;
     if (placed.side(Vector3d(next.origin)) > -noise) return {};
     if (!placed.shape->is_hit(next, again)) return "no way out";
     const Vector3d middle =

@@ -48,7 +48,7 @@ double separable_albedo(const Ggx& ggx, const Vector3f& o) {
 
 double correlated_albedo(const Ggx& ggx, const Vector3f& o) {
   return over_hemisphere(400, [&](const Vector3f& i) {
-    return double(ggx.density(glm::normalize(o + i)) * ggx.joint_visibility(o, i) * i.z);
+    return double(ggx.density(glm::normalize(o + i)) * ggx.joint_visibility(ggx.eye(o), i) * i.z);
   });
 }
 
@@ -94,7 +94,8 @@ TEST_CASE("Fresnel's reflectance of gold, and Schlick's approximation", "[bsdf]"
                                                {60, {0.96222F, 0.80455F, 0.371108F}},
                                                {80, {0.963216F, 0.875662F, 0.59171F}}};
   for (const auto& [degrees, expected] : of_gold) {
-    const Color3f seen = raytracer::fresnel_conductor(kGold, cos_degrees(degrees));
+    const Color3f seen =
+        raytracer::fresnel_conductor(raytracer::ConductorSquares(kGold), cos_degrees(degrees));
     for (int c = 0; c < 3; ++c) CHECK(std::abs(seen[c] - expected[c]) < 1e-4F);
     // The same through the whole of a smooth material.
     const Case c = gold(0);
@@ -122,9 +123,11 @@ TEST_CASE("means of Fresnel's reflectance over diffuse light", "[bsdf]") {
     CHECK(std::abs(raytracer::fresnel_dielectric_mean(eta) - expected) < 7e-3F);
   }
   for (const raytracer::Metal& metal : raytracer::metals()) {
-    const Color3f seen = raytracer::fresnel_conductor_mean(metal.index);
+    const Color3f seen = raytracer::fresnel_conductor_mean(raytracer::ConductorSquares(metal.index));
     for (int c = 0; c < 3; ++c) {
-      const float expected = mean([&](float x) { return raytracer::fresnel_conductor(metal.index, x)[c]; });
+      const float expected = mean([&](float x) {
+        return raytracer::fresnel_conductor(raytracer::ConductorSquares(metal.index), x)[c];
+      });
       CHECK(std::abs(seen[c] - expected) < 3e-3F);
     }
   }
@@ -413,9 +416,10 @@ TEST_CASE("metals are found by name, sorted, and look like themselves", "[bsdf]"
   REQUIRE(raytracer::find_metal("gold") != nullptr);
   CHECK((raytracer::find_metal("gold")->eta == kGold.eta && raytracer::find_metal("gold")->k == kGold.k));
   for (const raytracer::Metal& metal : all) {
-    const Color3f seen = raytracer::fresnel_conductor(metal.index, 1);
+    const Color3f seen = raytracer::fresnel_conductor(raytracer::ConductorSquares(metal.index), 1);
     for (int c = 0; c < 3; ++c) CHECK((seen[c] > 0.3F && seen[c] < 1));
   }
-  const Color3f copper = raytracer::fresnel_conductor(*raytracer::find_metal("copper"), 1);
+  const Color3f copper =
+      raytracer::fresnel_conductor(raytracer::ConductorSquares(*raytracer::find_metal("copper")), 1);
   CHECK((copper.x > 0.85F && copper.y < 0.7F && copper.z < copper.y));
 }

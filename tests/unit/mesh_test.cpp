@@ -411,6 +411,19 @@ TEST_CASE("the directions to a shining triangle are spread evenly", "[mesh]") {
   for (int axis = 0; axis < 3; ++axis) CHECK(is_near(mean[axis], 0.5, 1e-3));
 }
 
+TEST_CASE("display colours become linear where they are asked to", "[mesh]") {
+  MeshData data = cube_mesh();
+  data.colors.assign(8, Color3f(0.5f));
+  MeshOptions options;
+  options.linear_colors = true;
+  MeshData linear = data, display = data;
+  prepare_mesh(linear, options);
+  CHECK(linear.colors[0] == Color3f(0.5f));  // they were linear before
+  display.has_display_colors = true;
+  prepare_mesh(display, options);
+  CHECK(is_near(display.colors[0].x, 0.21404, 1e-4));
+}
+
 TEST_CASE("numbers that make no mesh are refused", "[mesh]") {
   MeshData data = cube_mesh();
   data.triangles.push_back({0, 1, 8});
