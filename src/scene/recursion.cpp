@@ -239,9 +239,9 @@ Recursion::Shares Recursion::shares_of(const Surface& surface) const {
               opaque = below * (1 - m.metallic) * (1 - m.transmission);
   Color3f facets(0);
   if (metal > 0) {
-    facets +=
-        metal * (m.conductor ? m.color * fresnel_conductor(relative_to(*m.conductor, surface.before), cosine)
-                             : fresnel_schlick(m.color, cosine));
+    facets += metal * (m.conductor ? m.color * fresnel_conductor(
+                                                   ConductorSquares(*m.conductor, surface.before), cosine)
+                                   : fresnel_schlick(m.color, cosine));
   }
   const float eta = surface.behind / surface.before;
   float layer = 0;
