@@ -33,10 +33,6 @@ bool is_smooth(float roughness) { return roughness < 0.01f; }
 // A thin pane: light that goes to and fro between its two faces, added up.
 float both_faces(float reflectance) { return 2 * reflectance / (1 + reflectance); }
 
-ConductorIndex relative_to(const ConductorIndex& index, float outside) {
-  return {index.eta / outside, index.k / outside};
-}
-
 }  // namespace
 
 // --- the paper -----------------------------------------------------------------------------------------

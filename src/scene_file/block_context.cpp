@@ -143,7 +143,8 @@ void BlockContext::store(const PropertyRow& row, const Argument& argument, void*
 }
 
 bool BlockContext::fill_item(const PropertyNode& property, void* input) {
-  const PropertyRow* row = find_property(row_, around_.source->text(property.name));
+  const PropertyRow* row = property.is_nameless() ? find_file_property(row_)
+                                                  : find_property(row_, around_.source->text(property.name));
   if (row == nullptr) {
     report_unknown_property(property.name);
     return false;
