@@ -33,10 +33,6 @@ bool is_smooth(float roughness) { return roughness < 0.01f; }
 // A thin pane: light that goes to and fro between its two faces, added up.
 float both_faces(float reflectance) { return 2 * reflectance / (1 + reflectance); }
 
-ConductorIndex relative_to(const ConductorIndex& index, float outside) {
-  return {index.eta / outside, index.k / outside};
-}
-
 }  // namespace
 
 // --- the paper -----------------------------------------------------------------------------------------
@@ -239,9 +235,9 @@ Recursion::Shares Recursion::shares_of(const Surface& surface) const {
               opaque = below * (1 - m.metallic) * (1 - m.transmission);
   Color3f facets(0);
   if (metal > 0) {
-    facets +=
-        metal * (m.conductor ? m.color * fresnel_conductor(relative_to(*m.conductor, surface.before), cosine)
-                             : fresnel_schlick(m.color, cosine));
+    facets += metal * (m.conductor ? m.color * fresnel_conductor(
+                                                   ConductorSquares(*m.conductor, surface.before), cosine)
+                                   : fresnel_schlick(m.color, cosine));
   }
   const float eta = surface.behind / surface.before;
   float layer = 0;

@@ -18,12 +18,6 @@ inline bool is_of_paper(const Material& m) {
          !m.conductor && m.textures == nullptr && !m.is_area_light && !m.is_emissive();
 }
 
-/// With what the vertices of a mesh say.
-inline Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hit, const Material& material) {
-  if (!scene.has_vertex_colors() || !material.takes_vertex_colors) return material.color;
-  return material.color * scene.detail_at(ray, hit).color;
-}
-
 /// A ray of the recursion, and what it has come through.
 struct Sight {
   Ray3f ray;

@@ -118,7 +118,7 @@ class BlockContext {
   /// What add_shape() makes from here on is made of it, whatever the block says.
   void use_material(std::uint32_t index) { material_ = index; }
   /// Adds the mesh in a file that `property` names.
-  void add_mesh_file(std::string_view property, const std::string& file, const MeshOptions& options);
+  void add_mesh_file(std::string_view property, const std::string& file, MeshOptions options);
   void build_children();
   std::uint32_t add_material(const Material& material);
 

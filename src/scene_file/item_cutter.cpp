@@ -20,7 +20,7 @@ bool ItemCutter::is_needed(std::span<const ItemNode> items) const {
       if (!(*block)->words.empty() && !is_kind_(word) && find_property(row_, word) == nullptr) return true;
     }
     const auto* property = std::get_if<const PropertyNode*>(&item);
-    if (property == nullptr) continue;
+    if (property == nullptr || (*property)->is_nameless()) continue;
     if (find_property(row_, source_.text((*property)->name)) == nullptr || (*property)->values.empty())
       return true;
   }
@@ -38,6 +38,10 @@ ValueNode ItemCutter::as_word(Span span) const {
 std::span<const ItemNode> ItemCutter::cut(std::span<const ItemNode> items) {
   for (const ItemNode& item : items) {
     if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
+      if ((*property)->is_nameless()) {  // stands in front of all others
+        items_.push_back(item);
+        continue;
+      }
       run_.push_back(as_word((*property)->name));
       run_.insert(run_.end(), (*property)->values.begin(), (*property)->values.end());
       if ((*property)->body != nullptr) flush_before((*property)->body);

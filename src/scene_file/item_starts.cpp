@@ -47,6 +47,9 @@ class Collector {
   }
 
   const KindRow* row_of(const BlockNode& block) const {
+    if (block.words.size() == 1) {  // `color checker { … }`
+      if (const KindRow* texture = find_texture_kind(text(block.words[0]))) return texture;
+    }
     const KindRow* variant =
         block.words.empty() ? nullptr : find_kind(text(block.kind), text(block.words[0]));
     return variant != nullptr ? variant : find_kind(text(block.kind));
@@ -93,6 +96,7 @@ class Collector {
     std::uint32_t end = 0;
     for (const ItemNode& item : items) {
       if (const auto* property = std::get_if<const PropertyNode*>(&item)) {
+        if ((*property)->is_nameless()) continue;
         const std::size_t count = (*property)->values.size();
         if (room > 0 && is_value(*block, end, (*property)->name)) {
           room -= std::min(room, count + 1);
@@ -102,6 +106,10 @@ class Collector {
           room = most - std::min(most, count);
         }
         end = (*property)->whole().end;
+        if (const BlockNode* body = (*property)->body) {
+          room = 0;
+          collect(body->items, body);
+        }
         continue;
       }
       const auto* inner = std::get_if<const BlockNode*>(&item);

@@ -83,6 +83,10 @@ class SceneReader {
   void read_property(const JsonMember& member, const KindRow* row, Items& items);
   void read_transforms(const JsonMember& transforms, Items& items);
   const BlockNode* read_inner_block(const JsonMember& member);
+  const BlockNode* read_texture(const JsonMember& member, const JsonMember& texture);
+  void read_stops(const JsonMember& stops, const PropertyRow& row, Items& items);
+  ValueNode expression_value(const JsonMember& expression);
+  const Expression* moved(const Expression& e, std::uint32_t by);
   bool has_only(const JsonValue& object, std::span<const std::string_view> known, std::string_view what);
   bool is_name(Span span) const;
   bool take_name(const JsonMember& member, Span& name);
@@ -254,6 +258,7 @@ void SceneReader::read_properties(const JsonValue& object, const KindRow* row, I
   const JsonMember* children = nullptr;
   for (const JsonMember& member : object.members) {
     if (is_key(member, "kind") || is_key(member, "name") || is_key(member, "variant")) continue;
+    if (is_key(member, "texture") && row != nullptr && row->block_class == BlockClass::kTexture) continue;
     if (is_key(member, "children")) {
       children = &member;
     } else if (is_key(member, "transforms")) {
@@ -305,10 +310,20 @@ void SceneReader::read_property(const JsonMember& member, const KindRow* row, It
   const PropertyRow* known = row != nullptr ? find_property(*row, name) : nullptr;
   if (known == nullptr && name == material_property().name) known = &material_property();
   std::vector<ValueNode> values;
+  const bool is_list_of_stops = known != nullptr && known->type == PropertyType::kStop;
+  if (is_list_of_stops && member.value.type == JsonType::kArray) {
+    return read_stops(member, *known, items);
+  }
   if (member.value.type == JsonType::kArray) {
     for (const JsonValue& element : member.value.elements) values.push_back(value_of(element, known));
   } else if (member.value.type == JsonType::kObject) {
-    if (const JsonMember* display = find(member.value, "display"); display == nullptr) {
+    if (const JsonMember* texture = find(member.value, "texture")) {
+      if (const BlockNode* block = read_texture(member, *texture)) items.emplace_back(block);
+      return;
+    }
+    if (const JsonMember* expression = find(member.value, "expression")) {
+      values.push_back(expression_value(*expression));
+    } else if (const JsonMember* display = find(member.value, "display"); display == nullptr) {
       items.emplace_back(read_inner_block(member));
       return;
     } else if (member.value.members.size() == 1) {
@@ -336,6 +351,82 @@ const BlockNode* SceneReader::read_inner_block(const JsonMember& member) {
   block.items = keep(items);
   block.end = member.value.span.end;
   return tree_->arena.make(block);
+}
+
+// `"color": {"texture": "checker", "a": "red"}`
+const BlockNode* SceneReader::read_texture(const JsonMember& member, const JsonMember& texture) {
+  Span word;
+  if (!take_name(texture, word)) return nullptr;
+  BlockNode block;
+  block.is_exact = true;
+  block.kind = member.key.inside();
+  block.kind_name = names_.id_of(text(block.kind));
+  block.words = tree_->arena.copy(std::span<const Span>(&word, 1));
+  Items items;
+  read_properties(member.value, find_texture_kind(text(word)), items);
+  block.items = keep(items);
+  block.end = member.value.span.end;
+  return tree_->arena.make(block);
+}
+
+// `"stop": [[0, "black"], [1, [1, 0.5, 0]]]`
+void SceneReader::read_stops(const JsonMember& stops, const PropertyRow& row, Items& items) {
+  PropertyRow color = row;
+  color.type = PropertyType::kColor;
+  for (const JsonValue& stop : stops.value.elements) {
+    if (stop.type != JsonType::kArray || stop.elements.size() != 2) {
+      error(mark(stop), "a stop is a number and a colour", R"([0.5, "red"])");
+      continue;
+    }
+    std::vector<ValueNode> values = {value_of(stop.elements[0], nullptr)};
+    const JsonValue& value = stop.elements[1];
+    const JsonMember* display = value.type == JsonType::kObject ? find(value, "display") : nullptr;
+    if (display != nullptr) {
+      values.push_back(display_value(*display));
+    } else if (value.type == JsonType::kArray) {
+      for (const JsonValue& component : value.elements) values.push_back(value_of(component, &color));
+    } else {
+      values.push_back(value_of(value, &color));
+    }
+    PropertyNode property;
+    property.name = stops.key.inside();
+    property.name_id = names_.id_of(text(property.name));
+    property.values = tree_->arena.copy(std::span<const ValueNode>(values));
+    items.emplace_back(tree_->arena.make(property));
+  }
+}
+
+// `"color": {"expression": "0.5 + 0.5 * u"}`
+ValueNode SceneReader::expression_value(const JsonMember& expression) {
+  ValueNode value;
+  value.span = expression.value.span;
+  if (!expect(expression.value, JsonType::kString, "an expression in quotes")) return value;
+  const Span inside = expression.value.inside();
+  constexpr std::size_t kLongest = 20'000;
+  const bool is_plain = text(inside).find('\\') == std::string_view::npos && text(inside).size() <= kLongest;
+  Diagnostics mistakes;
+  const Source source("expression", "", std::string(text(inside)));
+  const Expression* parsed =
+      is_plain ? parse_lone_expression(source, names_, tree_->arena, mistakes) : nullptr;
+  if (parsed == nullptr) {
+    const std::vector<Diagnostic> messages = mistakes.take();
+    error(value.span, messages.empty() ? "this is no expression" : messages.front().message,
+          "\"0.5 + 0.5 * u\"");
+    return value;
+  }
+  value.kind = ValueKind::kExpression;
+  value.expression = moved(*parsed, inside.begin);
+  return value;
+}
+
+// An expression of another text, as if it stood here.
+const Expression* SceneReader::moved(const Expression& e, std::uint32_t by) {
+  Expression copy = e;
+  for (Span* span : {&copy.span, &copy.token}) *span = {span->begin + by, span->end + by};
+  std::vector<const Expression*> arguments;
+  for (const Expression* argument : e.arguments) arguments.push_back(moved(*argument, by));
+  copy.arguments = tree_->arena.copy(std::span<const Expression* const>(arguments));
+  return tree_->arena.make(copy);
 }
 
 ValueNode SceneReader::value_of(const JsonValue& json, const PropertyRow* row) {

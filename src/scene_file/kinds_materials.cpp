@@ -176,8 +176,8 @@ std::shared_ptr<const MaterialTextures> textures_of(const MaterialInput& in) {
   };
   const auto bend = static_cast<float>(in.normal_scale);
   rescale(textures.normal_map, Color3f(0.5f), {bend, bend, 1});
-  rescale(textures.bump, Color3f(0), Color3f(in.bump_scale));
-  rescale(textures.emission, Color3f(0), Color3f(in.emission_strength));
+  rescale(textures.bump, Color3f(0), Color3f(static_cast<float>(in.bump_scale)));
+  rescale(textures.emission, Color3f(0), Color3f(static_cast<float>(in.emission_strength)));
   const bool has_any = textures.color || textures.shininess || textures.roughness || textures.metallic ||
                        textures.specular || textures.transmission || textures.emission || textures.coat ||
                        textures.coat_roughness || textures.anisotropy || textures.alpha ||

@@ -33,14 +33,17 @@ constexpr PropertyRow kVisible =
 constexpr PropertyRow kImageSky[] = {
     property<&SkyInput::file>("file", "A panorama: Radiance HDR, EXR, PNG or JPEG, -z at its left edge.")
         .must_be_given(),
-    property<&SkyInput::rotate>("rotate", "Turns it about y, counter-clockwise seen from above.").in(kDegrees),
+    property<&SkyInput::rotate>("rotate", "Turns it about y, counter-clockwise seen from above.")
+        .in(kDegrees),
     kStrength, kVisible};
 constexpr PropertyRow kGradientSky[] = {
     property<&SkyInput::zenith>("zenith", "The light from straight up.").within(kBrightness),
     property<&SkyInput::horizon>("horizon", "From eye level.").within(kBrightness),
     property<&SkyInput::ground>("ground", "From straight below.").within(kBrightness), kStrength, kVisible};
 constexpr PropertyRow kSunSky[] = {
-    property<&SkyInput::elevation>("elevation", "Of the sun over the horizon.").in(kDegrees).within(kElevation),
+    property<&SkyInput::elevation>("elevation", "Of the sun over the horizon.")
+        .in(kDegrees)
+        .within(kElevation),
     property<&SkyInput::azimuth>("azimuth", "Where it stands: 0 is -z, 90 is x.").in(kDegrees),
     property<&SkyInput::turbidity>("turbidity", "How hazy the air is: 2 clear, 10 milky.").within(kTurbidity),
     property<&SkyInput::ground_color>("ground_color", "The share of light that the ground returns.")
@@ -48,7 +51,8 @@ constexpr PropertyRow kSunSky[] = {
     property<&SkyInput::disk>("disk", "Whether the sun itself is there."),
     property<&SkyInput::disk_size>("disk_size", "Times its true size; larger is softer, not brighter.")
         .within({0.01, 100}),
-    kStrength, kVisible};
+    kStrength,
+    kVisible};
 
 template <class Make>
 void set_sky(const SkyInput& in, BlockContext& block, const Make& make) {
@@ -98,7 +102,8 @@ KindRow sky(KindRow row, std::string_view variant) {
 
 std::span<const KindRow> sky_kinds() {
   static const KindRow rows[] = {
-      sky(kind<SkyInput, build_image_sky>(kSky, "Light from all around, from a picture.", kImageSky), "image"),
+      sky(kind<SkyInput, build_image_sky>(kSky, "Light from all around, from a picture.", kImageSky),
+          "image"),
       sky(kind<SkyInput, build_gradient_sky>(kSky, "Light from all around, in three colours.", kGradientSky),
           "gradient"),
       sky(kind<SkyInput, build_sun_sky>(kSky, "A clear sky and its sun.", kSunSky), "sun"),

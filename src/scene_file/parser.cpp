@@ -24,6 +24,12 @@ bool is_statement(std::string_view word) {
   return std::ranges::find(kStatements, word) != std::end(kStatements);
 }
 
+// `color image "wood.png"`, `sky image "studio.exr"`
+bool names_file(const PropertyNode& property) {
+  const auto& values = property.values;
+  return values.size() == 2 && values[0].kind == ValueKind::kWord && values[1].kind == ValueKind::kString;
+}
+
 class Parser {
  public:
   Parser(const Source& source, Names& names, Diagnostics& diagnostics, std::vector<ReadToken>* record)
@@ -59,6 +65,7 @@ class Parser {
   void parse_bad_block(std::vector<ItemNode>& items);
   int words_before_brace() const;
   const BlockNode* parse_block(int words);
+  const BlockNode* block_with_file(const PropertyNode& property);
   void take_body(BlockNode& block, Context context);
   const PropertyNode* parse_property(Context context);
   bool begins_next_property(Context context) const;
@@ -127,7 +134,13 @@ void Parser::parse_item(Context context, std::vector<ItemNode>& items) {
   if (words > 0) return add(items, parse_block(words));
   if (find_kind(tokens_.text()) != nullptr && !is_property_of(context, tokens_.text()))
     return parse_bad_block(items);
-  add(items, parse_property(context));
+  const PropertyNode* property = parse_property(context);
+  if (property != nullptr && names_file(*property)) {
+    const KindRow* kind = find_kind(tokens_.text(property->name), tokens_.text(property->values[0].span));
+    if (kind != nullptr && find_file_property(*kind) != nullptr)
+      return add(items, block_with_file(*property));
+  }
+  add(items, property);
 }
 
 // `sphere "ball" { … }`, `sphere radius 1 }`, `sphere`: a kind of block that no '{' follows as it should.
@@ -223,6 +236,23 @@ const BlockNode* Parser::parse_block(int words) {
   return tree_->arena.make(block);
 }
 
+// `sky image "studio.exr" { … }`: a block whose first property is the file.
+const BlockNode* Parser::block_with_file(const PropertyNode& property) {
+  PropertyNode file;
+  file.name = property.values[1].span;
+  file.values = property.values.subspan(1);
+  BlockNode block;
+  block.kind = property.name;
+  block.kind_name = property.name_id;
+  block.words = tree_->arena.copy(std::span<const Span>(&property.values[0].span, 1));
+  block.end = property.whole().end;
+  if (property.body != nullptr) block = *property.body;
+  std::vector<ItemNode> items = {tree_->arena.make(file)};
+  items.insert(items.end(), block.items.begin(), block.items.end());
+  block.items = tree_->arena.copy(std::span<const ItemNode>(items));
+  return tree_->arena.make(block);
+}
+
 void Parser::take_body(BlockNode& block, Context context) {
   block.items = parse_body(block.kind, context);
   block.end = tokens_.previous_end();
@@ -307,9 +337,7 @@ const PropertyNode* Parser::parse_property(Context context) {
   tokens_.mute(false);
   property.values = tree_->arena.copy(std::span<const ValueNode>(values));
   // `color image "wood.png" { … }`
-  const bool names_file =
-      values.size() == 2 && values[0].kind == ValueKind::kWord && values[1].kind == ValueKind::kString;
-  if (names_file && tokens_.is(TokenType::kOpenBrace)) {
+  if (names_file(property) && tokens_.is(TokenType::kOpenBrace)) {
     BlockNode block;
     block.kind = property.name;
     block.kind_name = property.name_id;

@@ -94,7 +94,12 @@ void SceneRecorder::end_block() {
 void SceneRecorder::add(const PropertyRow& property, const Argument& argument) {
   const std::string text = fmt::format("{}: {}", json_quoted(property.name), value_text(property, argument));
   Node& node = open_.back();
-  if (property.is_placing) {
+  if (property.is_repeatable) {  // a list of all
+    const std::string begin = fmt::format(", {}: [", json_quoted(property.name));
+    const bool goes_on = node.properties.ends_with("]]") && node.properties.rfind(begin) != std::string::npos;
+    if (goes_on) node.properties.pop_back();
+    node.properties += fmt::format("{}{}]", goes_on ? ", " : begin, value_text(property, argument));
+  } else if (property.is_placing) {
     node.transforms += fmt::format(", {{{}}}", text);
   } else {
     node.properties += ", " + text;

@@ -48,8 +48,8 @@ std::span<const KindRow> all_kinds() {
   static const std::vector<KindRow> rows = [] {
     std::vector<KindRow> all;
     for (const std::span<const KindRow> table :
-         {setting_kinds(), sky_kinds(), light_kinds(), material_kinds(), texture_kinds(), group_kinds(), shape_kinds(),
-          mesh_kinds()}) {
+         {setting_kinds(), sky_kinds(), light_kinds(), material_kinds(), texture_kinds(), group_kinds(),
+          shape_kinds(), mesh_kinds()}) {
       all.insert(all.end(), table.begin(), table.end());
     }
     return all;
@@ -80,6 +80,11 @@ const PropertyRow* find_property(const KindRow& kind, std::string_view name) {
   if (const PropertyRow* row = find_in(kind.properties)) return row;
   if (kind.takes_material && name == kMaterialRow.name) return &kMaterialRow;
   return kind.placing == Placing::kNone ? nullptr : find_in(kTransformRows);
+}
+
+const PropertyRow* find_file_property(const KindRow& kind) {
+  const auto row = std::ranges::find(kind.properties, PropertyType::kFile, &PropertyRow::type);
+  return row == kind.properties.end() ? nullptr : &*row;
 }
 
 const KindRow* find_texture_kind(std::string_view name) { return find_kind(kTextureKind, name); }

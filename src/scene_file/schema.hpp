@@ -182,6 +182,8 @@ const KindRow* find_texture_kind(std::string_view name);
 
 /// A property of the kind, its common ones included; null where it has none of that name.
 const PropertyRow* find_property(const KindRow& kind, std::string_view name);
+/// The property that a file's name without a word for it belongs to; null where the kind names no file.
+const PropertyRow* find_file_property(const KindRow& kind);
 /// Whether any variant of the kind has a property of that name.
 bool is_property_of(std::string_view kind, std::string_view property);
 

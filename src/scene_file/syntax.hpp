@@ -79,6 +79,8 @@ struct PropertyNode {
   std::span<const ValueNode> values;
   const BlockNode* body = nullptr;  ///< what stands in braces behind the values
 
+  /// The name of a file without a word in front of it, as in `image "wood.png"`: the value is its own name.
+  bool is_nameless() const { return !values.empty() && values.front().span.begin == name.begin; }
   Span whole() const { return {name.begin, values.empty() ? name.end : values.back().span.end}; }
 };
 
@@ -141,7 +143,6 @@ struct BlockNode {
   std::span<const ItemNode> items;
   std::uint32_t end = 0;  ///< behind the closing brace
   bool is_exact = false;  ///< its items need no knowledge of the kind to be told apart (JSON)
-  bool has_file = false;  ///< its first property is a file's name without a word for it
   bool is_closed = true;  ///< false where the text ended first, which has been reported
 
   /// In JSON the words may stand in front of the kind.

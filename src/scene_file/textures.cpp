@@ -122,15 +122,15 @@ bool BlockContext::fill_texture_file(const PropertyRow& row, const PropertyNode&
   const ValueNode &word = property.values[0], &file = property.values[1];
   const KindRow* kind = find_texture_row(word.span);
   if (kind == nullptr) return false;
-  const auto known = std::ranges::find(kind->properties, PropertyType::kFile, &PropertyRow::type);
-  if (known == kind->properties.end()) {
+  const PropertyRow* known = find_file_property(*kind);
+  if (known == nullptr) {
     builder_.diagnostics_.error(place(file.span), fmt::format("a {} has no file", kind->variant),
                                 fmt::format("{} {} {{ … }}", row.name, kind->variant));
     return false;
   }
   Arena& arena = builder_.draft_.nodes;
   PropertyNode named;
-  named.name = file.span;  // there is no word for it
+  named.name = file.span;
   named.name_id = builder_.evaluator_.names().id_of(known->name);
   named.values = property.values.subspan(1);
   BlockNode block;
@@ -141,7 +141,6 @@ bool BlockContext::fill_texture_file(const PropertyRow& row, const PropertyNode&
   std::vector<ItemNode> items(block.items.begin(), block.items.end());
   items.insert(items.begin(), arena.make(named));
   block.items = arena.copy(std::span<const ItemNode>(items));
-  block.has_file = true;
   return fill_texture_block(row, *arena.make(block), input);
 }
 

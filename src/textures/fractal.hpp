@@ -24,6 +24,6 @@ float fractal_noise(const Vector3f& p, int octaves, float gain, float width);
 float turbulence_noise(const Vector3f& p, int octaves, float gain, float width);
 
 /// The mean of |lattice_noise|.
-inline constexpr float kMeanAbsoluteNoise = 0.2117f;
+inline constexpr float kMeanAbsoluteNoise = 0.2202f;
 
 }  // namespace raytracer
