@@ -30,7 +30,7 @@ PICTURES = {  # name: (its scene, what else the command line says)
     **{f"step-{n:02}": (f"tutorial/step-{n:02}", SMALL) for n in range(1, 11)},
     "step-08": ("tutorial/step-08", [*SMALL, "--time-at", "1.6"]),
     "step-09": ("tutorial/step-09", [*SMALL, "--set", "night=true"]),
-    **{name: (f"gallery/{name}", SMALL) for name in ("staircase", "city", "clock", "sphereflake", "periodic-table")},
+    **{name: (f"gallery/{name}", SMALL) for name in ("staircase", "city", "clock", "forest", "sphereflake", "periodic-table")},
     "dominoes": ("gallery/dominoes", [*SMALL, "--time-at", "4"]),
 }
 

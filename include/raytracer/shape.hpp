@@ -28,7 +28,7 @@ struct SurfacePoint {
   float position_error = 0;
   Vector3f normal{0, 1, 0};          ///< geometric, unit length; outwards on closed shapes
   Vector3f shading_normal{0, 1, 0};  ///< unit length, same side as `normal`; equal to it on exact shapes
-  /// From `position` to where rays to lights start that leave on the side from which the surface was seen; the
+  /// From `position` to where rays to lights start that leave on the side that the surface was seen from; the
   /// step of position_error comes on top. A smooth mesh would else be shadowed by its own facets. 0 on exact
   /// shapes.
   Vector3f shadow_offset{0};

@@ -90,8 +90,10 @@ struct PathTracer::Vertex {
   const Material& material;  // as the scene has it: tells media apart
   const Material* resolved;  // with its textures' values here
   SurfacePoint surface;
-  Vector3f facing;  // the geometric normal on the side from which the ray came
-  Vector3f out;     // unit length, back along the ray
+  Vector3f facing;         // the geometric normal on the side from which the ray came
+  Vector3f out;            // unit length, back along the ray
+  Vector3f light_side{0};  // lights are looked for on this side; 0: on both
+  BsdfFrame frame{};
 
   Vector3f offset_position(const Vector3f& direction, const std::optional<float>& epsilon) const {
     const float offset = epsilon.value_or(surface.position_error);
@@ -99,8 +101,22 @@ struct PathTracer::Vertex {
   }
   // Where a ray to a light starts.
   Vector3f shadow_position(const Vector3f& direction, const std::optional<float>& epsilon) const {
-    const bool is_reflected = glm::dot(direction, facing) > 0;
-    return offset_position(direction, epsilon) + (is_reflected ? surface.shadow_offset : Vector3f(0));
+    const bool is_reflected = glm::dot(direction, is_smooth() ? light_side : facing) > 0;
+    if (!is_reflected) return offset_position(direction, epsilon);
+    return surface.position + epsilon.value_or(surface.position_error) * facing + surface.shadow_offset;
+  }
+
+  // Whether facets stand for a curved surface that lets no light through.
+  bool is_smooth() const { return surface.shadow_offset != Vector3f(0) && light_side != Vector3f(0); }
+
+  // What the light from a direction becomes. The curved surface is lit as far as its own normal says, facets
+  // or not; where else the edge of the light would follow them. (No path goes on that way: the densities of
+  // sample() and pdf() stay what they are.)
+  Color3f evaluate(const Bsdf& bsdf, const Vector3f& in) const {
+    if (!is_smooth() || glm::dot(in, facing) > 0) return bsdf.evaluate(out, in);
+    BsdfFrame curved = frame;
+    curved.geometric_normal = frame.normal;
+    return Bsdf(*resolved, curved).evaluate(out, in);
   }
 };
 
@@ -208,7 +224,7 @@ void PathTracer::shade(int depth) {
 bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   const Hit& hit = hits_[index];
   const Material& material = scene_.material_of(hit);
-  Vertex vertex{hit, material, &material, scene_.surface_at(path.ray, hit), {}, {}};
+  Vertex vertex{hit, material, &material, scene_.surface_at(path.ray, hit), {}, {}, {}, {}};
   const float length = glm::length(path.ray.direction);
   vertex.out = -path.ray.direction / length;
   const bool is_outside = glm::dot(vertex.surface.normal, vertex.out) > 0;
@@ -227,9 +243,18 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   if (vertex.resolved->is_emissive()) add_emission(path, vertex, depth);
   if (material.is_area_light || depth >= settings_.bounces || is_black(path.throughput)) return false;
 
-  BsdfFrame frame;
+  // At a silhouette the shading normal may look away from the eye: it is turned back, just far enough.
+  Vector3f shading = is_outside ? vertex.surface.shading_normal : -vertex.surface.shading_normal;
+  constexpr float kLeastCosine = 0.01F;
+  const float cosine = glm::dot(shading, vertex.out);
+  if (cosine < kLeastCosine && shading != vertex.facing)
+    shading = glm::normalize(shading + (kLeastCosine - cosine) * vertex.out);
+  const bool is_smooth = vertex.surface.shadow_offset != Vector3f(0);
+  if (!(vertex.resolved->transmission > 0)) vertex.light_side = is_smooth ? shading : vertex.facing;
+
+  BsdfFrame& frame = vertex.frame;
   frame.geometric_normal = vertex.surface.normal;
-  frame.normal = vertex.surface.shading_normal;
+  frame.normal = is_outside ? shading : -shading;
   if (material.anisotropy != 0) frame.tangent = scene_.detail_at(path.ray, hit).along_u;
   if (has_inside(material)) {
     frame.ior_outside = is_outside ? path.media.ior() : path.media.ior_without(&material);
@@ -271,12 +296,13 @@ void PathTracer::add_emission(const Path& path, const Vertex& vertex, int depth)
 // Looks at one light, chosen by what it may contribute.
 void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const Bsdf& bsdf,
                                   std::uint32_t index, int depth) {
-  const Vector3f normal = vertex.resolved->transmission > 0 ? Vector3f(0) : vertex.facing;
   LightSample light;
-  if (!lights_.sample(vertex.surface.position, normal, choice_points_[index].x, light_points_[index], light))
+  if (!lights_.sample(vertex.surface.position, vertex.light_side, choice_points_[index].x,
+                      light_points_[index], light)) {
     return;
+  }
   if (settings_.sampling == Sampling::kMaterials && !light.is_delta) return;
-  const Color3f value = bsdf.evaluate(vertex.out, light.direction);
+  const Color3f value = vertex.evaluate(bsdf, light.direction);
   if (is_black(value) || !(light.pdf > 0)) return;
   float weight = 1;
   if (!light.is_delta && settings_.sampling == Sampling::kBoth) {
@@ -301,7 +327,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   path.throughput *= sample.weight;
   path.pdf = sample.is_delta ? 0 : sample.pdf;
   path.from = vertex.surface.position;
-  path.from_normal = vertex.resolved->transmission > 0 ? Vector3f(0) : vertex.facing;
+  path.from_normal = vertex.light_side;
   path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
   if (!sample.is_delta) path.cone_spread = std::max(path.cone_spread, 0.1F);
   if (sample.is_transmission && has_inside(vertex.material)) {

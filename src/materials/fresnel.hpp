@@ -49,7 +49,9 @@ struct ConductorSquares {
   alignas(16) float eta2[4], k2[4];
 
   ConductorSquares() = default;
-  explicit ConductorSquares(const ConductorIndex& index, float outside = 1) {
+  /// `outside`: the index of the medium before the metal, where `index` is relative to vacuum. Not explicit:
+  /// it is the same thing in another form.
+  ConductorSquares(const ConductorIndex& index, float outside = 1) {
     for (int c = 0; c < 3; ++c) {
       // Bounds that no metal reaches; also what is not a number ends up at one of them.
       const float eta = std::max(1e-3F, std::min(1e3F, index.eta[c] / outside));
@@ -73,7 +75,9 @@ inline Color3f fresnel_conductor(const ConductorSquares& index, float cosine) {
     const float s_sum = length + cosine2, s_cross = 2 * a * cosine;
     const float p_sum = cosine2 * length + sine2 * sine2, p_cross = s_cross * sine2;
     // s and p = s (p_sum - p_cross) / (p_sum + p_cross), and their mean over one denominator.
-    result[c] = std::min(1.0F, (s_sum - s_cross) * p_sum / ((s_sum + s_cross) * (p_sum + p_cross)));
+    // Where the metal is hardly there, the difference rounds to less than 0.
+    const float s_difference = std::max(0.0F, s_sum - s_cross);
+    result[c] = std::min(1.0F, s_difference * p_sum / ((s_sum + s_cross) * (p_sum + p_cross)));
   }
   return {result[0], result[1], result[2]};
 }

@@ -1,14 +1,19 @@
 #include "meshes/ears.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace raytracer::meshes {
 namespace {
 
-// Tests against ears for each corner of a polygon. Faces drawn by hand or by programs need a few; one made to
-// need them all would take the square of its size, and is cut without further tests instead.
-constexpr std::uint64_t kTestsPerCorner = 4096;
+// Tests of corners against ears: so many for each corner of a polygon, and no more than that for all. Faces
+// drawn by hand or by programs need a few; one made to need them all would take the square of its size, and
+// is cut without further tests instead.
+constexpr std::uint64_t kTestsPerCorner = 1024, kMostTests = std::uint64_t{1} << 27U;
+
+constexpr std::uint32_t kConvex = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
@@ -20,7 +25,9 @@ void EarClipper::cut(std::span<const std::uint32_t> corners, const std::vector<V
   }
   project(corners, positions);
   if (corners.size() == 4) {
-    const bool other = !(area(0, 1, 2) > 0 && area(0, 2, 3) > 0) && area(1, 2, 3) > 0 && area(1, 3, 0) > 0;
+    const auto& p = points_;
+    const bool first = area(p[0], p[1], p[2]) > 0 && area(p[0], p[2], p[3]) > 0;
+    const bool other = !first && area(p[1], p[2], p[3]) > 0 && area(p[1], p[3], p[0]) > 0;
     const std::size_t a = other ? 1 : 0;
     *out++ = {corners[a], corners[a + 1], corners[a + 2]};
     *out = {corners[a], corners[a + 2], corners[(a + 3) % 4]};
@@ -32,9 +39,7 @@ void EarClipper::cut(std::span<const std::uint32_t> corners, const std::vector<V
     corner = find_ear(corner);
     const std::uint32_t before = previous_[corner], after = next_[corner];
     *out++ = {corners[before], corners[corner], corners[after]};
-    next_[before] = after;
-    previous_[after] = before;
-    next_[corner] = static_cast<std::uint32_t>(corner);  // gone
+    cut_off(corner);
     corner = after;
   }
 }
@@ -60,16 +65,19 @@ void EarClipper::project(std::span<const std::uint32_t> corners, const std::vect
 
 void EarClipper::find_bulges() {
   left_ = points_.size();
-  budget_ = kTestsPerCorner * left_;
+  budget_ = std::min(kTestsPerCorner * left_, kMostTests);
   next_.resize(left_);
   previous_.resize(left_);
-  reflex_.clear();
   for (std::size_t i = 0; i < left_; ++i) {
     next_[i] = static_cast<std::uint32_t>(i + 1 < left_ ? i + 1 : 0);
     previous_[i] = static_cast<std::uint32_t>(i > 0 ? i - 1 : left_ - 1);
   }
+  reflex_.clear();
+  reflex_place_.assign(left_, kConvex);
   for (std::size_t i = 0; i < left_; ++i) {
-    if (!(area(previous_[i], i, next_[i]) > 0)) reflex_.push_back(static_cast<std::uint32_t>(i));
+    if (area_at(i) > 0) continue;
+    reflex_place_[i] = static_cast<std::uint32_t>(reflex_.size());
+    reflex_.push_back({points_[i], static_cast<std::uint32_t>(i)});
   }
 }
 
@@ -79,44 +87,65 @@ std::size_t EarClipper::find_ear(std::size_t from) {
   bool has_flat = false;
   for (std::size_t i = 0; i < left_ && budget_ > 0; ++i, corner = next_[corner]) {
     --budget_;
-    const double size = area(previous_[corner], corner, next_[corner]);
+    const double size = area_at(corner);
     if (size > 0 && is_ear(corner)) return corner;
     if (size == 0 && !has_flat) {
       has_flat = true;
       flat = corner;
     }
   }
+  // Without ears it crosses itself: no way to cut it is right, so less and less is spent on it.
+  if (!has_flat) budget_ /= 8;
   return flat;
 }
 
-// Whether no other corner of the polygon lies in the triangle that is to be cut off. Only reflex ones need
-// be asked; those that have become convex or are gone are dropped on the way.
+// Whether no other corner of the polygon lies in the triangle that is to be cut off, its edges included. Only
+// reflex ones need be asked; a point that coincides with one of the triangle's is not in the way.
 bool EarClipper::is_ear(std::size_t corner) {
-  const std::size_t a = previous_[corner], c = next_[corner];
-  for (std::size_t i = 0; i < reflex_.size();) {
-    const std::size_t p = reflex_[i];
-    if (budget_ > 0) --budget_;
-    if (next_[p] == p || area(previous_[p], p, next_[p]) > 0) {
-      reflex_[i] = reflex_.back();
-      reflex_.pop_back();
-      continue;
+  const Vector2d a = points_[previous_[corner]], b = points_[corner], c = points_[next_[corner]];
+  const Vector2d lower = glm::min(a, glm::min(b, c)), upper = glm::max(a, glm::max(b, c));
+  for (std::size_t i = 0; i < reflex_.size(); ++i) {
+    const Vector2d& p = reflex_[i].point;
+    if (p.x < lower.x || p.x > upper.x || p.y < lower.y || p.y > upper.y) continue;
+    if (p == a || p == b || p == c) continue;
+    if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) {
+      budget_ -= std::min<std::uint64_t>(budget_, i);
+      return false;
     }
-    if (p != a && p != corner && p != c && is_within(p, a, corner, c)) return false;
-    ++i;
   }
+  budget_ -= std::min<std::uint64_t>(budget_, reflex_.size());
   return true;
 }
 
-double EarClipper::area(std::size_t a, std::size_t b, std::size_t c) const {
-  const Vector2d u = points_[b] - points_[a], v = points_[c] - points_[a];
+double EarClipper::area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+  const Vector2d u = b - a, v = c - a;
   return u.x * v.y - u.y * v.x;
 }
 
-// The edges are part of it; a point that coincides with a corner is not in the way.
-bool EarClipper::is_within(std::size_t point, std::size_t a, std::size_t b, std::size_t c) const {
-  const Vector2d& p = points_[point];
-  if (p == points_[a] || p == points_[b] || p == points_[c]) return false;
-  return area(a, b, point) >= 0 && area(b, c, point) >= 0 && area(c, a, point) >= 0;
+double EarClipper::area_at(std::size_t corner) const {
+  return area(points_[previous_[corner]], points_[corner], points_[next_[corner]]);
+}
+
+void EarClipper::cut_off(std::size_t corner) {
+  const std::uint32_t before = previous_[corner], after = next_[corner];
+  next_[before] = after;
+  previous_[after] = before;
+  forget(corner);
+  forget_if_convex(before);
+  forget_if_convex(after);
+}
+
+void EarClipper::forget_if_convex(std::size_t corner) {
+  if (area_at(corner) > 0) forget(corner);
+}
+
+void EarClipper::forget(std::size_t corner) {
+  const std::uint32_t place = reflex_place_[corner];
+  if (place == kConvex) return;
+  reflex_[place] = reflex_.back();
+  reflex_place_[reflex_[place].corner] = place;
+  reflex_.pop_back();
+  reflex_place_[corner] = kConvex;
 }
 
 }  // namespace raytracer::meshes

@@ -25,14 +25,24 @@ class EarClipper {
   void find_bulges();
   std::size_t find_ear(std::size_t from);
   bool is_ear(std::size_t corner);
-  double area(std::size_t a, std::size_t b, std::size_t c) const;
-  bool is_within(std::size_t point, std::size_t a, std::size_t b, std::size_t c) const;
+  static double area(const Vector2d& a, const Vector2d& b, const Vector2d& c);
+  double area_at(std::size_t corner) const;
+  void cut_off(std::size_t corner);
+  void forget_if_convex(std::size_t corner);
+  void forget(std::size_t corner);
+
+  // A corner that bulges inward, and so may lie in the way of an ear.
+  struct Reflex {
+    Vector2d point;
+    std::uint32_t corner;
+  };
 
   std::vector<Vector2d> points_;
   std::vector<std::uint32_t> next_, previous_;
-  std::vector<std::uint32_t> reflex_;  // corners that may lie in the way of an ear
-  std::size_t left_ = 0;               // corners not cut off yet
-  std::uint64_t budget_ = 0;           // how many more corners are tested against ears
+  std::vector<Reflex> reflex_;
+  std::vector<std::uint32_t> reflex_place_;  // a corner's place in reflex_, or kConvex
+  std::size_t left_ = 0;                     // corners not cut off yet
+  std::uint64_t budget_ = 0;                 // how many more corners are tested against ears
 };
 
 }  // namespace raytracer::meshes

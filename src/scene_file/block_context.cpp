@@ -335,7 +335,7 @@ void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
 }
 
 void BlockContext::add_mesh_file(std::string_view property, const std::string& file, MeshOptions options) {
-  options.linear_colors = builder_.draft_.render.method == Method::kPath;
+  options.linear_colors = builder_.method_ == Method::kPath;
   const Place& place = given(property)->place;
   const std::string path =
       builder_.files_.find(file, place, "a file to read a mesh from", builder_.diagnostics_);

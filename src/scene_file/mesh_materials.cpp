@@ -29,7 +29,6 @@ Material material_from_mtl(const MeshData::NamedMaterial& said) {
   } else if (material.has_layer) {
     material.roughness = roughness_of_exponent(std::max(0.0f, said.exponent));
   }
-  // Here is the place for said.color_map and its kin.
   return material;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "core/hash.hpp"
@@ -11,6 +12,7 @@
 #include "scene_file/diagnostics.hpp"
 #include "scene_file/files.hpp"
 #include "shapes/mesh.hpp"
+#include "textures/image_texture.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -100,12 +102,41 @@ void MeshStore::load(MeshFile& mesh, const Place& place) {
       diagnostics_.warning(place, fmt::format("'{}': {}", mesh.name, remark));
     if (data->triangles.empty() && data->remarks.empty())
       diagnostics_.warning(place, fmt::format("'{}' has no triangles", mesh.name));
-    mesh.materials = data->materials;
+    mesh.materials.clear();
+    mesh.pictures.clear();
+    for (const MeshData::NamedMaterial& said : data->materials) {
+      Material material = material_from_mtl(said);
+      if (TexturePointer picture = color_map(said, mesh, place)) {
+        auto textures = std::make_shared<MaterialTextures>();
+        textures->color = std::move(picture);
+        material.textures = std::move(textures);
+      }
+      mesh.materials.push_back(std::move(material));
+    }
     mesh.data = std::move(data);
   } catch (const Error& error) {
     mesh.problem = error.what();
   } catch (const std::bad_alloc&) {
     mesh.problem = "there is too little memory for it";
+  }
+}
+
+// The picture that stands for a material's colour; null where it names none, or it can't be shown, which is
+// then told.
+TexturePointer MeshStore::color_map(const MeshData::NamedMaterial& said, MeshFile& mesh, const Place& place) {
+  if (said.color_map.empty()) return nullptr;
+  try {
+    const std::string path = (std::filesystem::path(said.folder) / said.color_map).string();
+    files_.require_allowed(path);
+    const TexelUse use{mesh.options.linear_colors ? TextureMeaning::kLight : TextureMeaning::kDisplay};
+    auto pyramid = files_.pictures().pyramid(path, use);
+    files_.note_read(path);
+    mesh.pictures.push_back(path);
+    return make_image_texture(std::move(pyramid), TexturePlacement{});
+  } catch (const Error& error) {
+    diagnostics_.warning(place, fmt::format("'{}': the picture '{}' can't be shown: {}", mesh.name,
+                                            said.color_map, error.what()));
+    return nullptr;
   }
 }
 
@@ -129,7 +160,14 @@ MeshFile* MeshStore::read(const std::string& path, const std::string& name, cons
   files_.note_read(path);
   const bool lacks_hash = needs_hash && !mesh->hash;
   if ((is_new || lacks_hash || !mesh->problem.empty()) && !need_data(*mesh, place)) return nullptr;
-  if (lacks_hash) mesh->hash = hash_of(*mesh->data);
+  if (lacks_hash) {
+    Hasher hasher;
+    for (const std::uint64_t word : hash_of(*mesh->data)) hasher.add(word);
+    for (const std::string& picture : mesh->pictures) {
+      for (const std::uint64_t word : files_.content_hash(picture)) hasher.add(word);
+    }
+    mesh->hash = hasher.value();
+  }
   return mesh.get();
 }
 
@@ -137,9 +175,9 @@ const std::vector<std::uint32_t>& MeshStore::materials_of(const MeshFile& mesh,
                                                           std::vector<Material>& materials) {
   const auto [known, is_new] = materials_.try_emplace(&mesh);
   if (is_new) {
-    for (const MeshData::NamedMaterial& said : mesh.materials) {
+    for (const Material& material : mesh.materials) {
       known->second.push_back(static_cast<std::uint32_t>(materials.size()));
-      materials.push_back(material_from_mtl(said));
+      materials.push_back(material);
     }
   }
   return known->second;
@@ -155,9 +193,9 @@ void MeshStore::add_copy(const MeshUse& use, std::vector<Material>& materials, S
 std::shared_ptr<const SharedShapes> MeshStore::share(const MeshFile& mesh, bool takes_all) {
   std::vector<Material> materials(1);
   std::vector<std::uint32_t> of_file;
-  for (const MeshData::NamedMaterial& said : mesh.materials) {
+  for (const Material& material : mesh.materials) {
     of_file.push_back(static_cast<std::uint32_t>(materials.size()));
-    materials.push_back(material_from_mtl(said));
+    materials.push_back(material);
   }
   ShapeBatch list;
   add_parts(mesh.own, 0, of_file, takes_all, list);

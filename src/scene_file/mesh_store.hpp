@@ -27,10 +27,11 @@ struct MeshFile {
   std::string path;  ///< canonical
   std::string name;  ///< as the scene names it
   MeshOptions options;
-  std::shared_ptr<MeshData> data;  ///< as read; null before, and once a scene has taken it
-  std::string problem;             ///< why it can't be read; empty if it can
-  std::vector<MeshData::NamedMaterial> materials;
-  std::optional<SceneHash> hash;  ///< of what was read
+  std::shared_ptr<MeshData> data;     ///< as read; null before, and once a scene has taken it
+  std::string problem;                ///< why it can't be read; empty if it can
+  std::vector<Material> materials;    ///< that the file gives
+  std::optional<SceneHash> hash;      ///< of what was read
+  std::vector<std::string> pictures;  ///< that the materials show
   /// With its options, in its own space; made when it stands in more than one place, or moves.
   std::shared_ptr<const MeshData> own;
   /// The same as shapes. The first of their materials
@@ -67,6 +68,7 @@ class MeshStore {
 
  private:
   void load(MeshFile& mesh, const Place& place);
+  TexturePointer color_map(const MeshData::NamedMaterial& said, MeshFile& mesh, const Place& place);
   bool need_data(MeshFile& mesh, const Place& place);
   const std::vector<std::uint32_t>& materials_of(const MeshFile& mesh, std::vector<Material>& materials);
   static std::shared_ptr<const SharedShapes> share(const MeshFile& mesh, bool takes_all);
@@ -82,7 +84,7 @@ class MeshStore {
   std::unordered_map<const MeshFile*, std::vector<std::uint32_t>> materials_;
 };
 
-/// What an MTL file's words mean for a material.
+/// What an MTL file's words mean for a material, but for its pictures.
 Material material_from_mtl(const MeshData::NamedMaterial& said);
 
 }  // namespace raytracer::scene_file

@@ -10,9 +10,8 @@ namespace raytracer::shapes {
 
 namespace {
 
-/// How far outside (of the squared distance) the cone is used; closer the rounding of `from` says nothing
-/// about the side that it is on.
-constexpr double kOutside = 1 + 1e-9;
+/// Whether a place at this squared distance from the middle is outside for certain.
+bool is_outside(double squared_distance, double rounding) { return squared_distance > 1 + 2 * rounding; }
 
 /// 1 - cosine of half the opening angle of the cone that touches the unit sphere; no digits lost far away.
 double cone_height(double squared_distance) {
@@ -24,10 +23,10 @@ double cone_height(double squared_distance) {
 
 /// G. Ward, P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM
 /// TOG 15(1), 1996, section 3.2.2: uniform over the solid angle of the cone.
-Vector3d choose_point_of_ball(const Vector3d& from, const Vector2f& u) {
+Vector3d choose_point_of_ball(const Vector3d& from, double rounding, const Vector2f& u) {
   const double squared = glm::dot(from, from);
   const double angle = 2 * kPi * static_cast<double>(u.x), share = static_cast<double>(u.y);
-  if (!(squared > kOutside)) {
+  if (!is_outside(squared, rounding)) {
     const double z = 1 - 2 * share;
     const double r = std::sqrt(std::max(1 - z * z, 0.0));
     return {r * std::cos(angle), r * std::sin(angle), z};
@@ -43,9 +42,9 @@ Vector3d choose_point_of_ball(const Vector3d& from, const Vector2f& u) {
       from + reach * (axes * Vector3d(sine * std::cos(angle), sine * std::sin(angle), 1 - height)));
 }
 
-double ball_density(const Vector3d& from, const Vector3d& point) {
+double ball_density(const Vector3d& from, double rounding, const Vector3d& point) {
   const double squared = glm::dot(from, from);
-  if (squared > kOutside) return 1 / (2 * kPi * cone_height(squared));
+  if (is_outside(squared, rounding)) return 1 / (2 * kPi * cone_height(squared));
   const Vector3d way = point - from;
   const double distance_squared = glm::dot(way, way);
   const double facing = std::abs(glm::dot(point, way));

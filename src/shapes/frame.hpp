@@ -33,6 +33,12 @@ class Frame {
     return glm::normalize(glm::transpose(to_local_) * normal);
   }
 
+  /// How far off a place in the world may be, in the local space, that was rounded to float a few times.
+  double local_rounding(const Vector3d& point) const {
+    constexpr double kTimes = 8;
+    return kTimes * kFloatRounding * glm::length(absolute_to_local_ * glm::abs(point)) + kFloatRounding;
+  }
+
   /// How much larger than in the local space a volume is in the world.
   double volume_scale() const { return volume_scale_; }
   /// How much larger a piece of surface is whose unit normal in the world is `normal`. By Nanson's formula it

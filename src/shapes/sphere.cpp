@@ -102,12 +102,13 @@ class Sphere final : public Shape {
   bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
                    ShapeSample& sample) const override {
     const Vector3d local = (Vector3d(from) - center_) / radius_;
-    const SurfacePoint point = surface_along(shapes::choose_point_of_ball(local, u));
-    return shapes::set_sample(point, density(local, point), sample);
+    const SurfacePoint point = surface_along(shapes::choose_point_of_ball(local, local_rounding(from), u));
+    return shapes::set_sample(point, part_pdf(0, from, point), sample);
   }
 
   float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
-    return density((Vector3d(from) - center_) / radius_, point);
+    const Vector3d local = (Vector3d(from) - center_) / radius_;
+    return shapes::usable_density(shapes::ball_density(local, local_rounding(from), Vector3d(point.normal)));
   }
 
  private:
@@ -116,8 +117,10 @@ class Sphere final : public Shape {
     return glm::normalize(found - center_);
   }
 
-  static float density(const Vector3d& local_from, const SurfacePoint& point) {
-    return shapes::usable_density(shapes::ball_density(local_from, Vector3d(point.normal)));
+  /// How far off a place may be that was rounded to float a few times, in radii.
+  double local_rounding(const Vector3f& place) const {
+    constexpr double kTimes = 8;
+    return kTimes * kFloatRounding * (1 + static_cast<double>(glm::length(place)) / radius_);
   }
 
   SurfacePoint surface_along(const Vector3d& normal) const {
@@ -183,13 +186,20 @@ class Ellipsoid final : public Shape {
 
   bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
                    ShapeSample& sample) const override {
-    const Vector3d local = frame_.to_local(Vector3d(from));
-    const SurfacePoint point = surface_along(shapes::choose_point_of_ball(local, u));
-    return shapes::set_sample(point, density(local, point), sample);
+    const Vector3d origin(from);
+    const SurfacePoint point = surface_along(
+        shapes::choose_point_of_ball(frame_.to_local(origin), frame_.local_rounding(origin), u));
+    return shapes::set_sample(point, part_pdf(0, from, point), sample);
   }
 
   float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
-    return density(frame_.to_local(Vector3d(from)), point);
+    // A cone of directions w around a unit vector w is |det M| / |M w|^3 times as wide in the world.
+    const Vector3d origin(from), local_from = frame_.to_local(origin);
+    const Vector3d local = glm::normalize(frame_.to_local(Vector3d(point.position)));
+    const Vector3d direction = glm::normalize(local - local_from);
+    const double stretch = glm::length(frame_.vector_to_world(direction));
+    return shapes::usable_density(shapes::ball_density(local_from, frame_.local_rounding(origin), local) *
+                                  stretch * stretch * stretch / frame_.volume_scale());
   }
 
  private:
@@ -199,15 +209,6 @@ class Ellipsoid final : public Shape {
 
   SurfacePoint surface_along(const Vector3d& normal) const {
     return frame_.surface_at(normal, normal, 1, Vector3d(bounds_.diagonal()));
-  }
-
-  /// A cone of directions w around a unit vector w is |det M| / |M w|^3 times as wide in the world.
-  float density(const Vector3d& local_from, const SurfacePoint& point) const {
-    const Vector3d local = glm::normalize(frame_.to_local(Vector3d(point.position)));
-    const Vector3d direction = glm::normalize(local - local_from);
-    const double stretch = glm::length(frame_.vector_to_world(direction));
-    return shapes::usable_density(shapes::ball_density(local_from, local) * stretch * stretch * stretch /
-                                  frame_.volume_scale());
   }
 
   Frame frame_;

@@ -5,8 +5,9 @@ import pathlib
 import struct
 import tempfile
 import unittest
+import zlib
 
-from program import ROOT, run
+from program import run
 
 CUBE = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
 FACES = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6),
@@ -116,6 +117,18 @@ class Meshes(unittest.TestCase):
             self.assertNotEqual(run(self.folder / "scene.txt", "-o", self.folder / name).returncode, 0)
             self.assertEqual((self.folder / name).read_bytes(), before)
 
+    def test_an_mtl_file_gives_pictures(self):
+        (self.folder / "green.png").write_bytes(png_of_one_color(0, 255, 0))
+        (self.folder / "green.mtl").write_text("newmtl green\nKd 0.9 0.1 0.1\nmap_Kd green.png\n")
+        (self.folder / "green.obj").write_text(obj("mtllib green.mtl\nusemtl green\n"))
+        green = self.picture(HEAD + "mesh { " + inline() + "  material { color 0 1 0 } }")
+        self.assertEqual(self.picture(HEAD + 'mesh { file "green.obj" }'), green)
+        (self.folder / "green.png").unlink()
+        (self.folder / "scene.txt").write_text(HEAD + 'mesh { file "green.obj" }')
+        done = run("check", self.folder / "scene.txt")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("the picture 'green.png' can't be shown", done.stderr.decode())
+
     def test_json_says_the_same(self):
         (self.folder / "parts" / "sub.ply").write_bytes(ply())
         (self.folder / "parts" / "parts.txt").write_text(
@@ -155,14 +168,20 @@ class Meshes(unittest.TestCase):
         self.mistake("mesh { vertices 0 0 0  1 0 0  0 1 0  faces 0 1 2  uvs 0 0 }", "'uvs' takes 2 numbers")
         self.mistake('mesh { file "cube.ply"  smooth 200 }', "'smooth' must be")
         (self.folder / "bad.ply").write_bytes(ply()[:-20])
-        message = self.mistake('\nmesh { file "bad.ply" }\nmesh { file "bad.ply"  translate 1 0 0 }', "'bad.ply': ",
-                               "scene.txt:2:8", "scene.txt:3:8")
-        self.assertIn("2 errors", message) if "errors" in message else None
+        self.mistake('\nmesh { file "bad.ply" }\nmesh { file "bad.ply"  translate 1 0 0 }', "'bad.ply': ",
+                     "scene.txt:2:8", "scene.txt:3:8")
+
+
+def png_of_one_color(*rgb):
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    rows = 4 * (b"\0" + 4 * bytes(rgb))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def pixels(png):
     """The bytes of the colours of a PNG of ours (8 bits, RGB)."""
-    import zlib
     position, data, width = 8, b"", 0
     while position < len(png):
         size, kind = struct.unpack(">I4s", png[position:position + 8])

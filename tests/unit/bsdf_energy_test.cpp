@@ -29,7 +29,7 @@ Albedo albedo(const Bsdf& bsdf, const Vector3f& out, int side_count, float squee
     BsdfSample sample;
     const float u_lobe = (float(k % lobes) + random.unit()) / float(lobes);
     if (!bsdf.sample(out, std::min(0.999999F, u_lobe), u, sample)) continue;
-    const float sky = sample.direction.z < 0 ? squeezed_below : 1.0F / (out.z < 0 ? 1.0F : 1.0F);
+    const float sky = sample.direction.z < 0 ? squeezed_below : 1.0F;
     total += sky * sample.weight;
     const double value = double(sky) * double(sample.weight.x);
     sum += value, sum2 += value * value;
@@ -85,6 +85,23 @@ TEST_CASE("a rough mirror that loses nothing shows the sky at every angle and ro
       INFO("roughness " << roughness << ", cosine " << cosine);
       const Albedo seen = albedo(bsdf, toward(cosine), 48);
       CHECK(std::abs(seen.mean.x - 1) < 0.004F + 3 * seen.error);
+    }
+  }
+}
+
+TEST_CASE("a drawn mirror shows most of the sky, and never more", "[bsdf]") {
+  for (const float roughness : {0.1F, 0.3F, 0.5F, 0.7F}) {
+    for (const float anisotropy : {0.2F, 0.5F, 0.8F, 1.0F}) {
+      const Bsdf bsdf(white(metal(roughness, anisotropy)).material, frame_over());
+      for (const float cosine : {1.0F, 0.8F, 0.5F, 0.25F, 0.1F, 0.03F}) {
+        for (const float turn : {0.0F, 0.1F, 0.25F}) {
+          INFO("roughness " << roughness << ", anisotropy " << anisotropy << ", cosine " << cosine
+                            << ", turn " << turn);
+          const Albedo seen = albedo(bsdf, toward(cosine, turn), 32);
+          CHECK(seen.mean.x < 1 + 0.002F + 4 * seen.error);
+          if (cosine >= 0.5F) CHECK(seen.mean.x > 0.8F - 4 * seen.error);
+        }
+      }
     }
   }
 }

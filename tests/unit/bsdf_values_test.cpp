@@ -112,6 +112,15 @@ TEST_CASE("Fresnel's reflectance of gold, and Schlick's approximation", "[bsdf]"
   }
 }
 
+TEST_CASE("a metal that is hardly there reflects hardly anything, and never less", "[bsdf]") {
+  for (int k = 0; k < 3000; ++k) {
+    const float eta = 0.9F + 0.0001F * float(k % 2000);
+    const ConductorIndex index{Vector3f(eta), {0, 1e-4F, 1e-3F}};
+    const Color3f seen = raytracer::fresnel_conductor(index, float(k) / 3000);
+    CHECK((is_sound(seen) && seen.x <= 1 && seen.y <= 1 && seen.z <= 1));
+  }
+}
+
 TEST_CASE("means of Fresnel's reflectance over diffuse light", "[bsdf]") {
   const auto mean = [](const auto& function) {
     double sum = 0;

@@ -121,6 +121,33 @@ TEST_CASE("irradiance of a disk, a ball and rectangles is what the formulas say"
   }
 }
 
+TEST_CASE("from on the inside of a ball that shines it is all around", "[lights]") {
+  Random random(15);
+  for (const double radius : {1e-3, 2.0, 1e5}) {
+    for (const Vector3d& center : {Vector3d(0), Vector3d(30 * radius, -7 * radius, radius)}) {
+      SceneDescription scene;
+      add(scene, make_sphere(center, radius), Color3f(0.5f));
+      const Scene owner(std::move(scene));
+      const LightSet lights(owner.description());
+      double sum = 0;
+      const int kSamples = 20000;
+      for (int i = 0; i < kSamples; ++i) {
+        const Ray3f ray = {Vector3f(center), glm::normalize(random.in_box(1))};
+        Hit hit;
+        REQUIRE(owner.is_hit(ray, hit));
+        const SurfacePoint point = owner.surface_at(ray, hit);
+        LightSample sample;
+        if (!lights.sample(point.position, -point.normal, random.unit(), random.square(), sample)) continue;
+        const float cosine = std::max(-glm::dot(point.normal, sample.direction), 0.0f);
+        if (owner.is_occluded(sample.shadow_ray(point.position - point.position_error * point.normal)))
+          continue;
+        sum += static_cast<double>(sample.radiance.x * cosine / sample.pdf);
+      }
+      CHECK(sum / kSamples == Approx(0.5 * kPi).epsilon(0.01));
+    }
+  }
+}
+
 TEST_CASE("an area light shines on the side of its normal only", "[lights]") {
   SceneDescription scene;
   add(scene, make_quad({-1, 1, -1}, 2.0 * kX, 2.0 * kZ), Color3f(1), true);  // normal downwards

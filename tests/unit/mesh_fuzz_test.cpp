@@ -11,18 +11,20 @@ using namespace raytracer;
 
 namespace {
 
-using Reader = MeshData (*)(const std::string&);
+using Reader = MeshData (*)(std::string_view);
 
 constexpr std::size_t kChunk = 40;  // several pieces even of small files
 
-MeshData read_obj(const std::string& file) { return meshes::read_obj(file, "", {}, kChunk); }
-MeshData read_ply(const std::string& file) { return meshes::read_ply(file, kChunk); }
-MeshData read_stl(const std::string& file) { return meshes::read_stl(file, kChunk); }
+MeshData read_obj(std::string_view file) { return meshes::read_obj(file, "", {}, kChunk); }
+MeshData read_ply(std::string_view file) { return meshes::read_ply(file, kChunk); }
+MeshData read_stl(std::string_view file) { return meshes::read_stl(file, kChunk); }
 
-// "" where the file is read soundly or refused with a sentence.
+// "" where the file is read soundly or refused with a sentence. From memory of just that size, so that a
+// sanitizer sees what is read beyond it.
 std::string outcome(Reader read, const std::string& file) {
+  const std::vector<char> bytes(file.begin(), file.end());
   try {
-    return inconsistency(read(file));
+    return inconsistency(read({bytes.data(), bytes.size()}));
   } catch (const Error& error) {
     return error.kind() == ErrorKind::kScene && *error.what() != '\0' ? "" : "a strange error";
   }

@@ -360,7 +360,8 @@ TEST_CASE("files are told apart by what is in them, and a name that says otherwi
 
 TEST_CASE("what is not there, a folder and a pipe are refused at once") {
   const TemporaryFolder folder;
-  CHECK(error_of([&] { read_picture(folder / "none.png"); }) == "it can't be read: No such file or directory");
+  const std::string missing = folder / "none.png";
+  CHECK(error_of([&] { read_picture(missing); }) == "it can't be read: No such file or directory");
   CHECK(error_of([&] { read_picture(folder.path()); }) == "it can't be read: it is a folder");
   CHECK(error_of([] { read_picture("/dev/zero"); }) == "it can't be read: it is a device or a pipe");
 }
