@@ -120,7 +120,7 @@ struct PathTracer::Vertex {
   }
 };
 
-PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings, const PathPoints& points,
+PathTracer::PathTracer(const Scene& scene, const PathSettings& settings, const PathPoints& points,
                        const Media& media)
     : scene_(scene),
       settings_(settings),
@@ -306,7 +306,7 @@ void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const 
   if (is_black(value) || !(light.pdf > 0)) return;
   float weight = 1;
   if (!light.is_delta && settings_.sampling == Sampling::kBoth) {
-    weight = power_heuristic(light.pdf, bsdf.pdf(vertex.out, light.direction));
+    weight = power_heuristic(light.pdf, chosen);
   }
   const std::size_t i = waiting_.count++;
   waiting_.rays[i] = light.shadow_ray(vertex.shadow_position(light.direction, scene_.description().epsilon));

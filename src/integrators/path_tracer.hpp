@@ -8,7 +8,7 @@
 
 #include "materials/bsdf.hpp"
 #include "materials/media.hpp"
-#include "raytracer/render.hpp"
+#include "raytracer/method.hpp"
 #include "raytracer/scene.hpp"
 #include "sampling/path_points.hpp"
 #include "scene/light_set.hpp"
@@ -30,8 +30,7 @@ Media media_at(const Scene& scene, const Vector3f& position);
 class PathTracer {
  public:
   /// All of them must outlive it.
-  PathTracer(const Scene& scene, const RenderSettings& settings, const PathPoints& points,
-             const Media& media);
+  PathTracer(const Scene& scene, const PathSettings& settings, const PathPoints& points, const Media& media);
 
   /// colors[i] becomes the radiance, 1 is white, that one path along rays[i] estimates. Its random numbers
   /// are those of numbers[i]; pair 0 of them has been spent on the picture and pair 1 on the lens.
@@ -80,7 +79,7 @@ class PathTracer {
   void draw_points(int depth);
 
   const Scene& scene_;
-  const RenderSettings& settings_;
+  const PathSettings& settings_;
   const PathPoints& points_;
   const Media& media_;
   const LightSet& lights_;

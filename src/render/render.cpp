@@ -209,6 +209,7 @@ class PathRenderer {
         settings_(settings),
         slice_(slice),
         image_(image),
+        paths_{settings.bounces, settings.sampling, settings.clamp_indirect, settings.seed},
         points_(settings.samples, settings.seed),
         media_(media_at(scene, scene.camera().position())) {
     scene.lights();  // gathered before the threads begin
@@ -222,7 +223,7 @@ class PathRenderer {
     std::vector<PathNumber> numbers(pixels.size());
     std::vector<Vector2f> places(pixels.size()), on_lens(pixels.size(), Vector2f(0.5F));
     const bool has_lens = scene_.camera().has_lens();
-    PathTracer tracer(scene_, settings_, points_, media_);
+    PathTracer tracer(scene_, paths_, points_, media_);
     for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
       for (std::size_t i = 0; i < pixels.size(); ++i)
         numbers[i] = points_.number(pixels[i].x, pixels[i].y, sample);
@@ -249,6 +250,7 @@ class PathRenderer {
   const RenderSettings& settings_;
   const Slice& slice_;
   Image& image_;
+  PathSettings paths_;
   PathPoints points_;
   Media media_;
 };
