@@ -94,7 +94,7 @@ constexpr std::uint8_t kAll = kRender | kCheck | kHelp | kParams | kFmt | kJson;
 
 constexpr OptionRow kOptions[] = {
     {"--output", "-o", "FILE", kRender | kJson, false,
-     "picture .png .exr .pfm, film .mp4 .webm .gif; - is stdout",
+     "picture .png .exr .pfm, film .mp4 .webm .gif; - stdout",
      [](Options& o, const std::string& v) { o.output = v; }},
     {"--size", "", "WxH", kLoading, false, "width and height in pixels", set_size},
     {"--samples", "", "N", kLoading, false, "rays per pixel",

@@ -1,7 +1,6 @@
 """The words of light from outside: what is told of slips in materials, lights and settings; which pictures are developed."""
 
 import json
-import struct
 import tempfile
 import pathlib
 import unittest
@@ -49,8 +48,8 @@ class Messages(unittest.TestCase):
                          "1 is full strength; 0..255 is written #rrggbb")
 
     def test_zero_area_emitters(self):
-        self.assert_says("sphere { } light area { width 0 0 0 }", 2, "width 0 0 0", "error",
-                         "'width' has no length", "")
+        self.assert_says("sphere { } light area { width 2 0 0  height 1 0 0 }", 2, "width 2 0 0", "error",
+                         "'width' and 'height' are parallel: they span no surface", "")
 
     def test_words_without_effect(self):
         self.assert_says("sphere { material { emission_strength 3 } }", 2, "emission_strength 3", "warning",
@@ -60,7 +59,7 @@ class Messages(unittest.TestCase):
                          "render { method path }")
 
     def test_words_to_come(self):
-        self.assert_says("sphere { material { iridescence 1 } }", 2, "iridescence 1", "error",
+        self.assert_says("sphere { material { iridescence 1 } }", 2, "iridescence", "error",
                          "'iridescence' can't be shown yet", "a later version will; remove it")
 
     def test_a_misspelt_material_of_the_library(self):
@@ -68,7 +67,7 @@ class Messages(unittest.TestCase):
                          "did you mean 'diamond'?")
 
     def test_a_lamp_in_a_ball(self):
-        self.assert_says("sphere { center 9 0 0 } light { position 9 0 0 }", 2, "light", "warning",
+        self.assert_says("sphere { } sphere { center 9 0 0 } light { position 9 0 0 }", 2, "light", "warning",
                          "the light stands inside a closed shape, which hides it",
                          "give the shape a material with 'emission' to see it shine")
 
@@ -113,16 +112,6 @@ class Pictures(unittest.TestCase):
             for words in ("exposure 2", "tone agx", "white_balance 3000"):
                 self.assertNotEqual(made(".png", ""), made(".png", words))
 
-    def test_classic_bytes_are_255_times_the_floats(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "out.pfm"
-            program.run("-", "-o", path, stdin=self.SCENE.encode())
-            width, height, values = program.read_pfm(path.read_bytes())
-            self.assertEqual((width, height), (16, 12))
-            flat = list(values) if not isinstance(values, (bytes, bytearray)) else \
-                struct.unpack(f"<{len(values) // 4}f", values)
-            self.assertGreater(max(max(v) if isinstance(v, (list, tuple)) else v for v in flat), 0.1)
-
 
 class Help(unittest.TestCase):
     def test_the_materials_of_the_library(self):
@@ -132,8 +121,8 @@ class Help(unittest.TestCase):
             shown = program.run("help", name).stdout.decode()
             body = shown[shown.index("material " + name):]
             # What help shows may be written, and is what the name stands for.
-            scene = SMALL + "sphere {{ material {} }}\n"
-            self.assertEqual(render(body + scene.format(name)), render(scene.format(name)), name)
+            scene = f"{SMALL}sphere {{ material {name} }}\n"
+            self.assertEqual(render(body + scene), render(scene), name)
 
 
 if __name__ == "__main__":
