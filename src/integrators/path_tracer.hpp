@@ -12,15 +12,14 @@
 #include "raytracer/scene.hpp"
 #include "sampling/path_points.hpp"
 #include "scene/light_set.hpp"
+#include "scene/shading_point.hpp"
 
 namespace raytracer {
 
-/// A ray with how wide the part of the picture is that it stands for: at distance t of a ray with unit
-/// direction, width + t * spread.
+/// A ray of unit direction with how wide the part of the picture is that it stands for.
 struct ConeRay {
   Ray3f ray;
-  float width = 0;
-  float spread = 0;
+  RayCone cone;
 };
 
 /// The media around the eye: what a path starts inside of.
@@ -47,7 +46,7 @@ class PathTracer {
     Color3f throughput{1};
     Vector3f from{0}, from_normal{0};  // where the ray's direction was chosen, as LightSet wants it
     float pdf = 0;  // of that choice; 0: the eye's or a mirror's, which no light could have chosen
-    float cone_width = 0, cone_spread = 0;
+    RayCone cone;
     float radiance_scale = 1;  // what refractions have made of the throughput, for the roulette
     std::uint32_t slot = 0;    // in colors
     Media media;
