@@ -12,6 +12,7 @@
 #include "raytracer/error.hpp"
 #include "sampling/sobol.hpp"
 #include "scene/pixel_color.hpp"
+#include "scene/shining_parts.hpp"
 
 namespace raytracer {
 namespace {
@@ -136,7 +137,8 @@ class ClassicRenderer {
     const std::vector<glm::ivec2>& pixels = sums.pixels();
     std::vector<Color3f> colors(pixels.size());
     std::vector<Ray3f> rays(pixels.size());
-    std::vector<Vector2f> light_points(settings_.samples == 1 ? 0 : pixels.size());
+    const bool has_light_points = settings_.samples > 1 && !scene_.shining().is_empty();
+    std::vector<Vector2f> light_points(has_light_points ? pixels.size() : 0);
     std::vector<RayCone> cones(has_textures_ ? pixels.size() : 0);
     PixelColors tracer(scene_);
     const bool has_lens = scene_.camera().has_lens();
