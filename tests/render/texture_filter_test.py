@@ -1,6 +1,11 @@
 """Few samples see the same far texture as many: its average."""
 
+import math
+import pathlib
+import struct
+import tempfile
 import unittest
+import zlib
 
 import float_pictures
 
@@ -10,6 +15,28 @@ render { ambient 1 }
 background { color 0.5 }
 plane { material { color checker { a 1  b 0  rotate 0 %d 0 } } }
 """
+
+# Lit from everywhere alike, so that nothing but the texture differs between samples.
+GRAZING = """
+camera { position 0 1 0  look_at 0 0.1 -2.6  fov 50 }
+render { method path  bounces 1 }
+background { color 1 }
+plane { material { color image { file "%s"  uv_scale 0.7 0.7 } } }
+"""
+
+
+def photograph(path, size=256):
+    """Slow waves with fine ones upon them, and grain."""
+    def value(x, y):
+        wave = math.sin(0.05 * x) * math.cos(0.04 * y) + 0.3 * math.sin(0.4 * x + 0.3 * y)
+        return int(120 + 60 * wave + (x * 7919 + y * 104729 + x * y * 31) % 23)
+
+    def chunk(name, content):
+        return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
+
+    rows = b"".join(b"\0" + bytes(value(x, y) for x in range(size)) for y in range(size))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def mean_difference(scene, *options):
@@ -23,6 +50,12 @@ class Far(unittest.TestCase):
         for turn in (0, 30):
             with self.subTest(turn):
                 self.assertLess(mean_difference(CHECKER % turn), 4 / 255)
+
+    def test_a_picture_at_a_grazing_angle_is_its_average(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.png"
+            photograph(path)
+            self.assertLess(mean_difference(GRAZING % path, "--allow-path", folder), 1 / 255)
 
 
 if __name__ == "__main__":
