@@ -111,9 +111,10 @@ struct PathTracer::Vertex {
 
   // What the light from a direction becomes. The curved surface is lit as far as its own normal says, facets
   // or not; where else the edge of the light would follow them. (No path goes on that way: the densities of
-  // sample() and pdf() stay what they are.)
-  Color3f evaluate(const Bsdf& bsdf, const Vector3f& in) const {
-    if (!is_smooth() || glm::dot(in, facing) > 0) return bsdf.evaluate(out, in);
+  // sample() and pdf() stay what they are.) `pdf` becomes the density of the direction.
+  Color3f evaluate(const Bsdf& bsdf, const Vector3f& in, float& pdf) const {
+    if (!is_smooth() || glm::dot(in, facing) > 0) return bsdf.evaluate(out, in, pdf);
+    pdf = 0;
     BsdfFrame curved = frame;
     curved.geometric_normal = frame.normal;
     return Bsdf(*resolved, curved).evaluate(out, in);
@@ -302,7 +303,8 @@ void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const 
     return;
   }
   if (settings_.sampling == Sampling::kMaterials && !light.is_delta) return;
-  const Color3f value = vertex.evaluate(bsdf, light.direction);
+  float chosen = 0;  // the density with which the material would have
+  const Color3f value = vertex.evaluate(bsdf, light.direction, chosen);
   if (is_black(value) || !(light.pdf > 0)) return;
   float weight = 1;
   if (!light.is_delta && settings_.sampling == Sampling::kBoth) {

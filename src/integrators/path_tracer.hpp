@@ -16,6 +16,14 @@
 
 namespace raytracer {
 
+/// What of a render's settings its paths follow from.
+struct PathSettings {
+  int bounces = kUnlimitedBounces;
+  Sampling sampling = Sampling::kBoth;
+  float clamp_indirect = 0;
+  std::uint32_t seed = 0;
+};
+
 /// A ray of unit direction with how wide the part of the picture is that it stands for.
 struct ConeRay {
   Ray3f ray;
