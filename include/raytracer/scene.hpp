@@ -130,7 +130,10 @@ class Scene {
   /// Its material with the values that its textures have there; `width` is how much of the surface around the
   /// hit, across the ray and in scene units, may be averaged over. The surface's shading normal follows the
   /// material's normal map or bumps.
-  Material textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface) const;
+  /// `aside`: from the hit to a point on the ray through the middle of what this one stands for; there the
+  /// textures are asked, so that samples spread over a pixel average all of it, and none of it twice.
+  Material textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface,
+                    const Vector3f& aside = Vector3f(0)) const;
   /// The share of rays for which the surface is there.
   float alpha_at(const Ray3f& ray, const Hit& hit) const;
 

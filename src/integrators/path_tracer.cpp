@@ -120,7 +120,7 @@ struct PathTracer::Vertex {
   }
 };
 
-PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings, const PathPoints& points,
+PathTracer::PathTracer(const Scene& scene, const PathSettings& settings, const PathPoints& points,
                        const Media& media)
     : scene_(scene),
       settings_(settings),
@@ -138,8 +138,7 @@ void PathTracer::trace(std::span<const ConeRay> rays, std::span<const PathNumber
   numbers_.assign(numbers.begin(), numbers.end());
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     paths_[i].ray = rays[i].ray;
-    paths_[i].cone_width = rays[i].width;
-    paths_[i].cone_spread = rays[i].spread;
+    paths_[i].cone = rays[i].cone;
     paths_[i].slot = i;
     paths_[i].media = media_;
   }
@@ -230,14 +229,15 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   const bool is_outside = glm::dot(vertex.surface.normal, vertex.out) > 0;
   vertex.facing = is_outside ? vertex.surface.normal : -vertex.surface.normal;
   const float distance = hit.t * length;
-  path.cone_width += distance * path.cone_spread;
+  const Vector3f aside = path.cone.aside_at(distance);
+  path.cone = path.cone.at(distance);
 
   if (const Material* medium = path.media.innermost()) {
     path.throughput *= glm::exp(-distance * absorption_of(*medium));
   }
   std::optional<Material> textured;
   if (material.textures != nullptr || scene_.has_vertex_colors()) {
-    textured = scene_.textured(path.ray, hit, path.cone_width, vertex.surface);
+    textured = scene_.textured(path.ray, hit, path.cone.width, vertex.surface, aside);
     vertex.resolved = &*textured;
   }
   if (vertex.resolved->is_emissive()) add_emission(path, vertex, depth);
@@ -306,7 +306,7 @@ void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const 
   if (is_black(value) || !(light.pdf > 0)) return;
   float weight = 1;
   if (!light.is_delta && settings_.sampling == Sampling::kBoth) {
-    weight = power_heuristic(light.pdf, bsdf.pdf(vertex.out, light.direction));
+    weight = power_heuristic(light.pdf, chosen);
   }
   const std::size_t i = waiting_.count++;
   waiting_.rays[i] = light.shadow_ray(vertex.shadow_position(light.direction, scene_.description().epsilon));
@@ -329,7 +329,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   path.from = vertex.surface.position;
   path.from_normal = vertex.light_side;
   path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
-  if (!sample.is_delta) path.cone_spread = std::max(path.cone_spread, 0.1F);
+  if (!sample.is_delta) path.cone.spread = std::max(path.cone.spread, 0.1F);
   if (sample.is_transmission && has_inside(vertex.material)) {
     const float before = path.media.ior();
     if (glm::dot(sample.direction, vertex.surface.normal) < 0) {

@@ -8,19 +8,18 @@
 
 #include "materials/bsdf.hpp"
 #include "materials/media.hpp"
-#include "raytracer/render.hpp"
+#include "raytracer/method.hpp"
 #include "raytracer/scene.hpp"
 #include "sampling/path_points.hpp"
 #include "scene/light_set.hpp"
+#include "scene/shading_point.hpp"
 
 namespace raytracer {
 
-/// A ray with how wide the part of the picture is that it stands for: at distance t of a ray with unit
-/// direction, width + t * spread.
+/// A ray of unit direction with how wide the part of the picture is that it stands for.
 struct ConeRay {
   Ray3f ray;
-  float width = 0;
-  float spread = 0;
+  RayCone cone;
 };
 
 /// The media around the eye: what a path starts inside of.
@@ -31,8 +30,7 @@ Media media_at(const Scene& scene, const Vector3f& position);
 class PathTracer {
  public:
   /// All of them must outlive it.
-  PathTracer(const Scene& scene, const RenderSettings& settings, const PathPoints& points,
-             const Media& media);
+  PathTracer(const Scene& scene, const PathSettings& settings, const PathPoints& points, const Media& media);
 
   /// colors[i] becomes the radiance, 1 is white, that one path along rays[i] estimates. Its random numbers
   /// are those of numbers[i]; pair 0 of them has been spent on the picture and pair 1 on the lens.
@@ -47,7 +45,7 @@ class PathTracer {
     Color3f throughput{1};
     Vector3f from{0}, from_normal{0};  // where the ray's direction was chosen, as LightSet wants it
     float pdf = 0;  // of that choice; 0: the eye's or a mirror's, which no light could have chosen
-    float cone_width = 0, cone_spread = 0;
+    RayCone cone;
     float radiance_scale = 1;  // what refractions have made of the throughput, for the roulette
     std::uint32_t slot = 0;    // in colors
     Media media;
@@ -81,7 +79,7 @@ class PathTracer {
   void draw_points(int depth);
 
   const Scene& scene_;
-  const RenderSettings& settings_;
+  const PathSettings& settings_;
   const PathPoints& points_;
   const Media& media_;
   const LightSet& lights_;

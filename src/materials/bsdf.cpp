@@ -238,7 +238,7 @@ Bsdf::FacetShares Bsdf::facet_shares(const View& view, float cosine) const {
     shares.reflected += Color3f(opaque_ * specular_ * fresnel_dielectric(cosine, layer_eta_).reflectance);
   }
   if (glass_ > 0) {
-    const Boundary boundary = fresnel_dielectric(cosine, view.side->eta);
+    const Boundary boundary = fresnel_dielectric(cosine, sides_[view.side].eta);
     float reflectance = boundary.is_total ? 1.0F : specular_ * boundary.reflectance;
     if (is_thin_) reflectance = both_faces(reflectance);
     shares.reflected += Color3f(glass_ * reflectance);
@@ -289,17 +289,18 @@ Color3f Bsdf::matt_reflection(const View& view, float cosine) const {
   if (metal_ > 0 && mirror_mean_loss_ > 0) {
     result += metal_multiple_ * (metal_ * view.mirror_loss * mirror_loss(cosine) / mirror_mean_loss_);
   }
-  if (glass_ > 0 && view.side->mean_loss > 0) {
-    result += Color3f(glass_ * view.side->back * view.glass_loss * glass_loss(*view.side, cosine) /
-                      view.side->mean_loss);
+  if (glass_ > 0 && sides_[view.side].mean_loss > 0) {
+    result += Color3f(glass_ * sides_[view.side].back * view.glass_loss *
+                      glass_loss(sides_[view.side], cosine) / sides_[view.side].mean_loss);
   }
   return result;
 }
 
 Color3f Bsdf::matt_transmission(const View& view, float cosine) const {
-  const float squeezed = is_thin_ ? 1.0F : view.side->eta * view.side->eta;
-  return color_ * (glass_ * view.side->through * view.glass_loss * glass_loss(*view.other_side, cosine) /
-                   (view.other_side->mean_loss * squeezed));
+  const float squeezed = is_thin_ ? 1.0F : sides_[view.side].eta * sides_[view.side].eta;
+  return color_ *
+         (glass_ * sides_[view.side].through * view.glass_loss * glass_loss(sides_[view.other_side], cosine) /
+          (sides_[view.other_side].mean_loss * squeezed));
 }
 
 // --- what out sees
@@ -320,12 +321,13 @@ bool Bsdf::look_anew(const Vector3f& out, View& view) const {
   view.o = {glm::dot(tangent_, out), glm::dot(bitangent_, out), std::min(1.0F, std::abs(cosine))};
   const bool is_solid = !is_thin_ && (glass_ > 0 || passing_ > 0);
   view.is_inside = view.is_below && is_solid;
-  view.side = &sides_[view.is_below && !is_thin_ ? 1 : 0];
-  view.other_side = &sides_[view.is_below || is_thin_ ? 0 : 1];
+  view.side = view.is_below && !is_thin_ ? 1 : 0;
+  view.other_side = view.is_below || is_thin_ ? 0 : 1;
   view.coat_passes = coat_passes(view.o.z, view.is_inside);
   view.layer_passes = opaque_ > 0 ? layer_passes(view.o.z) : 1.0F;
   view.mirror_loss = mirror_mean_loss_ > 0 ? mirror_loss(view.o.z) : 0.0F;
-  view.glass_loss = glass_ > 0 && view.side->mean_loss > 0 ? glass_loss(*view.side, view.o.z) : 0.0F;
+  view.glass_loss =
+      glass_ > 0 && sides_[view.side].mean_loss > 0 ? glass_loss(sides_[view.side], view.o.z) : 0.0F;
   if (alpha_x_ > 0) view.eye = facets_.eye(view.o);
   choose_lobes(view);
   return true;
@@ -346,10 +348,10 @@ void Bsdf::choose_lobes(View& view) const {
     const float metal = metal_ > 0 ? metal_ * largest(metal_mean_) * (1 - view.mirror_loss) : 0.0F;
     view.p_facet = below * (metal + opaque_ * (1 - view.layer_passes) + glass_);
   }
-  float back = opaque_ * brightest * view.layer_passes + glass_ * view.side->back * view.glass_loss;
+  float back = opaque_ * brightest * view.layer_passes + glass_ * sides_[view.side].back * view.glass_loss;
   if (metal_ > 0) back += metal_ * largest(metal_multiple_) * view.mirror_loss;
   view.p_back = below * back;
-  view.p_through = below * glass_ * view.side->through * view.glass_loss * brightest;
+  view.p_through = below * glass_ * sides_[view.side].through * view.glass_loss * brightest;
   const float sum =
       view.p_mirror + view.p_passing + view.p_coat + view.p_facet + view.p_back + view.p_through;
   const float scale = sum > 0 ? 1 / sum : 0.0F;
@@ -397,7 +399,7 @@ void Bsdf::add_thin_transmission(const View& view, const Vector3f& i, Scattered&
 // Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equations 16, 17 and 21,
 // with indices relative to that on o's side, and light squeezed.
 void Bsdf::add_facet_transmission(const View& view, const Vector3f& i, Scattered& result) const {
-  const float eta = view.side->eta;
+  const float eta = sides_[view.side].eta;
   Vector3f h = view.o + eta * i;
   const float length = glm::length(h);
   if (!(length > 0)) return;
@@ -542,7 +544,7 @@ bool Bsdf::sample_smooth_facet(const View& view, float u_lobe, const Vector3f& o
   }
   const float p_through = view.p_facet * (1 - p_reflect);
   if (is_thin_) return finish_delta(sample, -out, view.coat_passes * view.smooth.through, p_through, true);
-  const float eta = view.side->eta, through = fresnel_dielectric(o.z, eta).cosine_through;
+  const float eta = sides_[view.side].eta, through = fresnel_dielectric(o.z, eta).cosine_through;
   // The coat counts on its own side, where light is in the end or was in the beginning.
   const float passes = view.is_inside ? coat_passes(through, false) : view.coat_passes;
   return finish_delta(sample, to_world(view, glm::normalize(Vector3f(-o.x / eta, -o.y / eta, -through))),
@@ -561,7 +563,7 @@ bool Bsdf::sample_rough_facet(const View& view, float u_lobe, const Vector2f& u,
     i.z = -i.z;
     return i.z < 0;
   }
-  const float eta = view.side->eta;
+  const float eta = sides_[view.side].eta;
   const float through = fresnel_dielectric(std::min(1.0F, c), eta).cosine_through;
   i = (c / eta - through) * h - view.o / eta;
   return i.z < 0;

@@ -83,10 +83,9 @@ class Bsdf {
     Vector3f o;      ///< out in the surface's own space, turned upside down where needed so that o.z > 0
     bool is_below;   ///< it was
     bool is_inside;  ///< in solid glass, where there is no coat
-    const GlassSide* side;
-    const GlassSide* other_side;
-    Ggx::Eye eye;        ///< of rough facets
-    FacetShares smooth;  ///< of smooth facets
+    int side, other_side;  ///< of sides_, where out is and beyond
+    Ggx::Eye eye;          ///< of rough facets
+    FacetShares smooth;    ///< of smooth facets
     float coat_passes, layer_passes, mirror_loss, glass_loss;
     // How often each lobe is chosen; their sum is 1. `back` and `through` are the matt ones.
     float p_mirror, p_passing, p_coat, p_facet, p_back, p_through;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -100,12 +101,23 @@ Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel
   return scene.camera().ray_through(across, down, lens);
 }
 
+// The middle of the square of the pixel that a sample stands for: 4^k samples lie in as many squares. Others
+// stand for no square of their own.
+Vector2f middle_of_share(const Vector2f& within, int samples) {
+  const auto count = static_cast<unsigned>(samples);
+  if (!std::has_single_bit(count) || std::countr_zero(count) % 2 != 0) return within;
+  const auto edge = static_cast<float>(1U << static_cast<unsigned>(std::countr_zero(count) / 2));
+  return (glm::floor(within * edge) + 0.5F) / edge;
+}
+
 // How wide what that ray stands for is. Many samples share a pixel: each stands for a part of it.
 RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
                     const Vector2f& lens, const Ray3f& ray, int samples) {
   const Ray3f next = camera_ray(scene, image, pixel, within + Vector2f(1, 0), lens);
   const float share = 1 / std::sqrt(static_cast<float>(samples));
-  return {share * glm::length(next.origin - ray.origin), share * glm::length(next.direction - ray.direction)};
+  const Ray3f middle = camera_ray(scene, image, pixel, middle_of_share(within, samples), lens);
+  return {share * glm::length(next.origin - ray.origin), share * glm::length(next.direction - ray.direction),
+          middle.origin - ray.origin, middle.direction - ray.direction};
 }
 
 // Renders the samples of one slice of time by the paper's recursion.
@@ -197,6 +209,7 @@ class PathRenderer {
         settings_(settings),
         slice_(slice),
         image_(image),
+        paths_{settings.bounces, settings.sampling, settings.clamp_indirect, settings.seed},
         points_(settings.samples, settings.seed),
         media_(media_at(scene, scene.camera().position())) {
     scene.lights();  // gathered before the threads begin
@@ -210,7 +223,7 @@ class PathRenderer {
     std::vector<PathNumber> numbers(pixels.size());
     std::vector<Vector2f> places(pixels.size()), on_lens(pixels.size(), Vector2f(0.5F));
     const bool has_lens = scene_.camera().has_lens();
-    PathTracer tracer(scene_, settings_, points_, media_);
+    PathTracer tracer(scene_, paths_, points_, media_);
     for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
       for (std::size_t i = 0; i < pixels.size(); ++i)
         numbers[i] = points_.number(pixels[i].x, pixels[i].y, sample);
@@ -230,13 +243,14 @@ class PathRenderer {
   ConeRay cone_ray(const glm::ivec2& pixel, const Vector2f& place, const Vector2f& lens) const {
     const Ray3f ray = camera_ray(scene_, image_, pixel, place, lens);
     const RayCone cone = camera_cone(scene_, image_, pixel, place, lens, ray, settings_.samples);
-    return {ray, cone.width, cone.spread};
+    return {ray, cone};
   }
 
   const Scene& scene_;
   const RenderSettings& settings_;
   const Slice& slice_;
   Image& image_;
+  PathSettings paths_;
   PathPoints points_;
   Media media_;
 };

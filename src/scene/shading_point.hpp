@@ -10,7 +10,10 @@ namespace raytracer {
 struct RayCone {
   float width = 0;
   float spread = 0;
+  /// From the ray to the one through the middle of what it stands for: where it starts, and how that grows.
+  Vector3f aside{0}, aside_spread{0};
 
+  Vector3f aside_at(float t) const { return aside + t * aside_spread; }
   /// Of a ray that goes on from there.
   RayCone at(float t) const { return {width + t * spread, spread}; }
 };

@@ -42,12 +42,28 @@ TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const 
   return point;
 }
 
+// To where the ray through ray.at(hit.t) + aside meets the surface's plane. Not farther than the footprint
+// reaches: over an edge, or beyond a horizon, there is nothing to ask.
+void move_to_middle(const Ray3f& ray, const SurfacePoint& surface, const SurfaceDetail& detail,
+                    const Vector3f& aside, TexturePoint& point) {
+  const Vector3f way = surface.position + aside - ray.origin;
+  const float approach = glm::dot(way, surface.normal);
+  if (approach == 0) return;
+  const Vector3f move = aside - way * (glm::dot(aside, surface.normal) / approach);
+  const float reach = glm::length(point.position_dx) + glm::length(point.position_dy);
+  if (!(glm::dot(move, move) <= reach * reach)) return;
+  point.position += move;
+  point.uv += uv_along(detail, move);
+}
+
 }  // namespace
 
-Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface) const {
+Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface,
+                         const Vector3f& aside) const {
   const Material& material = material_of(hit);
   const SurfaceDetail detail = detail_at(ray, hit);
-  const TexturePoint point = texture_point(ray, surface, detail, width);
+  TexturePoint point = texture_point(ray, surface, detail, width);
+  if (aside != Vector3f(0)) move_to_middle(ray, surface, detail, aside, point);
   if (material.textures != nullptr) {
     surface.shading_normal = perturbed_normal(material, detail, point, surface.shading_normal);
   }

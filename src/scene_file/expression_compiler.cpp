@@ -71,6 +71,7 @@ class Compiler {
   std::optional<Operand> compile_constant(const Expression& e);
   ValueType checked_type(const Expression& e, std::span<const Operand> arguments);
   Operand emit_operation(const Expression& e, std::span<const Operand> arguments, ValueType type);
+  std::optional<Operand> emit_multiply_add(const Operand& a, const Operand& b);
   Operand emit_arithmetic(Operation operation, const Operand& a, const Operand& b, ValueType type);
   Operand emit_comparison(Operation operation, const Operand& a, const Operand& b);
   Operand emit_choice(std::span<const Operand> arguments, ValueType type);
@@ -253,7 +254,21 @@ Operand Compiler::emit_operation(const Expression& e, std::span<const Operand> a
   }
 }
 
+// A product that has just been computed, and is needed for nothing else, is added in the same step.
+std::optional<Operand> Compiler::emit_multiply_add(const Operand& a, const Operand& b) {
+  if (steps_.empty() || steps_.back().step != Step::kMultiply) return std::nullopt;
+  const WideStep product = steps_.back();
+  const bool is_first = a.constant == nullptr && product.to == a.place;
+  const bool is_second = b.constant == nullptr && product.to == b.place;
+  if (is_first == is_second) return std::nullopt;
+  steps_.pop_back();
+  return number(Step::kMultiplyAdd, product.a, product.b, place_of(is_first ? b : a));
+}
+
 Operand Compiler::emit_arithmetic(Operation operation, const Operand& a, const Operand& b, ValueType type) {
+  if (operation == Operation::kAdd && type == ValueType::kNumber) {
+    if (const std::optional<Operand> sum = emit_multiply_add(a, b)) return *sum;
+  }
   const Operand both[] = {a, b};
   const bool are_vectors = a.is_vector() && b.is_vector();
   switch (operation) {

@@ -40,10 +40,7 @@ double length_of(const Vector3d& v) {
   const double square = glm::dot(v, v);
   return std::isfinite(square) ? std::sqrt(square) : 0;
 }
-Vector3d normalized(const Vector3d& v) {
-  const double length = length_of(v);
-  return length > 0 ? v / length : Vector3d(0);
-}
+Vector3d normalized(const Vector3d& v) { return length_of(v) > 0 ? glm::normalize(v) : Vector3d(0); }
 
 // One step; everything is a place in r.
 void take(const ExpressionInstruction& i, double* r, std::span<const ExpressionFunction> functions) {

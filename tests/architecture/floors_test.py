@@ -27,6 +27,7 @@ PUBLIC_FLOORS = {
     "shape.hpp": 2, "shapes.hpp": 2, "texture.hpp": 2, "material.hpp": 2,
     "light.hpp": 3, "camera.hpp": 3,
     "scene.hpp": 4,
+    "method.hpp": 5,
     "render.hpp": 6, "scene_file.hpp": 6,
 }
 # Where neither of two neighbours knows the other, a public header of one is not the other's either; the one way

@@ -11,7 +11,7 @@
 
 #include "catch.hpp"
 #include "raytracer/scene_file.hpp"
-#include "scene_file/noise.hpp"
+#include "core/noise.hpp"
 
 using raytracer::load_scene_text;
 using raytracer::LoadedScene;
@@ -19,6 +19,9 @@ using raytracer::Vector3d;
 using namespace raytracer::scene_file;
 
 namespace {
+
+using raytracer::random_number;
+using raytracer::gradient_noise;
 
 using Numbers = std::vector<double>;
 

@@ -58,7 +58,14 @@ SceneDescription mirrors_and_lights() {
   scene.shapes.push_back(make_sphere({0.3, 0, 0}, 1.5));
   scene.shapes.push_back(make_quad({-3, -1, -3}, {6, 0, 0}, {0, 0.5, 6}));
   scene.shapes.push_back(make_plane({0, -1.5, 0}, {0, 1, 0.1}));
-  scene.materials = {{{0.9F, 0.5F, 0.3F}, 0.4F}, {{0.7F, 0.8F, 0.9F}, 0}, {{0.9F, 0.9F, 0.8F}, 1}};
+  const auto add_material = [&scene](const Color3f& color, float shininess) {
+    Material& material = scene.materials.emplace_back();
+    material.color = color;
+    material.shininess = shininess;
+  };
+  add_material({0.9F, 0.5F, 0.3F}, 0.4F);
+  add_material({0.7F, 0.8F, 0.9F}, 0);
+  add_material({0.9F, 0.9F, 0.8F}, 1);
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) scene.material_of.push_back(i % 3);
   Light point, spot;
   point.position = {2, 6, 5};

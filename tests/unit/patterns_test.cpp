@@ -35,7 +35,8 @@ double mean(const TexturePointer& texture, const Vector3f& middle, float side) {
   double sum = 0;
   for (int j = 0; j < kSteps; ++j) {
     for (int i = 0; i < kSteps; ++i) {
-      const Vector3f offset = (Vector3f(i, j, 0) + Vector3f(0.5F, 0.5F, 0)) / float{kSteps} - Vector3f(0.5F, 0.5F, 0);
+      const Vector3f offset =
+          (Vector3f(i, j, 0) + Vector3f(0.5F, 0.5F, 0)) / float{kSteps} - Vector3f(0.5F, 0.5F, 0);
       sum += static_cast<double>(at(texture, middle + side * offset));
     }
   }
