@@ -1,6 +1,7 @@
 #include "integrators/path_tracer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -160,23 +161,20 @@ void PathTracer::draw_points(int depth) {
   }
 }
 
-// The eye's rays go the same way; scattered ones are as fast one by one.
+// In packets throughout: the eye's rays go the same way, and even scattered ones gain a little.
 void PathTracer::find_hits(int depth) {
   const std::size_t count = paths_.size();
+  const Coherence coherence = depth == 0 ? Coherence::kCoherent : Coherence::kIncoherent;
   ray_count_ += count;
   hits_.assign(count, Hit{});
-  is_hit_.assign(count, 0);
-  if (depth == 0) {
-    rays_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) rays_[i] = paths_[i].ray;
-    for (std::size_t first = 0; first < count; first += kMostRays) {
-      const std::size_t size = std::min(kMostRays, count - first);
-      const std::uint32_t found = scene_.is_hit(std::span(rays_).subspan(first, size),
-                                                std::span(hits_).subspan(first, size), Coherence::kCoherent);
-      for (std::size_t i = 0; i < size; ++i) is_hit_[first + i] = found >> i & 1U;
-    }
-  } else {
-    for (std::size_t i = 0; i < count; ++i) is_hit_[i] = scene_.is_hit(paths_[i].ray, hits_[i]) ? 1 : 0;
+  is_hit_.resize(count);
+  std::array<Ray3f, kMostRays> rays;
+  for (std::size_t first = 0; first < count; first += kMostRays) {
+    const std::size_t size = std::min(kMostRays, count - first);
+    for (std::size_t i = 0; i < size; ++i) rays[i] = paths_[first + i].ray;
+    const std::uint32_t found = scene_.is_hit(std::span(rays).first(size),
+                                              std::span(hits_).subspan(first, size), coherence);
+    for (std::size_t i = 0; i < size; ++i) is_hit_[first + i] = found >> i & 1U;
   }
   for (std::uint32_t i = 0; i < count; ++i) pass_through(paths_[i], i, depth);
 }

@@ -96,7 +96,6 @@ class PathTracer {
 
   std::vector<Path> paths_;  // those that go on; compacted after every bounce
   std::vector<PathNumber> numbers_;
-  std::vector<Ray3f> rays_;
   std::vector<Hit> hits_;
   std::vector<std::uint8_t> is_hit_;
   std::vector<Vector2f> light_points_, choice_points_, scatter_points_, chance_points_;
