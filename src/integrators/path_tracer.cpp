@@ -42,6 +42,12 @@ bool is_cutout(const Material& material) {
   return material.alpha < 1 || (material.textures != nullptr && material.textures->alpha != nullptr);
 }
 
+// Not inlined, so that the shape writes the point where it is wanted: GCC else copies it, and waits for the
+// stores of single floats that it reads eight at once.
+[[gnu::noinline]] SurfacePoint surface_at(const Scene& scene, const Ray3f& ray, const Hit& hit) {
+  return scene.surface_at(ray, hit);
+}
+
 bool any_material(const SceneDescription& scene, bool (*fits)(const Material&)) {
   if (std::ranges::any_of(scene.materials, fits)) return true;
   return std::ranges::any_of(scene.shared, [&](const auto& shared) {
@@ -229,7 +235,7 @@ void PathTracer::move_path(std::size_t from, std::size_t to) {
 bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   const Hit& hit = hits_[index];
   const Material& material = scene_.material_of(hit);
-  Vertex vertex{hit, material, &material, scene_.surface_at(path.ray, hit), {}, {}, {}, {}};
+  Vertex vertex{hit, material, &material, raytracer::surface_at(scene_, path.ray, hit), {}, {}, {}, {}};
   const float length = glm::length(path.ray.direction);
   vertex.out = -path.ray.direction / length;
   const bool is_outside = glm::dot(vertex.surface.normal, vertex.out) > 0;

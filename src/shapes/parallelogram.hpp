@@ -45,7 +45,8 @@ struct Parallelogram {
     const Vector3d way = position - from;
     const double squared = glm::dot(way, way);
     const double facing = std::abs(glm::dot(from - corner, normal));
-    return usable_density(squared * std::sqrt(squared) / (area_ * facing));
+    return usable_density(squared * std::sqrt(squared) *
+                          (1 / (area_ * facing)));  // root and quotient at once
   }
 
   Vector3d middle_{0.0};

@@ -84,10 +84,13 @@ class Quad final : public Shape {
     glm::dvec2 weights;
     const float pdf = face_.choose(Vector3d(from), u, weights);
     if (!(pdf > 0)) return false;
-    const SurfacePoint point = surface_of(weights);
+    sample.position = Vector3f(face_.at(weights));
+    sample.position_error = flat_.anywhere().position_error;
+    sample.normal = flat_.anywhere().normal;
+    sample.pdf = pdf;
     sample.u = static_cast<float>(weights.x);
     sample.v = static_cast<float>(weights.y);
-    return shapes::set_sample(point, pdf, sample);
+    return true;
   }
 
   float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {

@@ -56,6 +56,7 @@ class FlatSurface {
     point.position = Vector3f(position);
     return point;
   }
+  const SurfacePoint& anywhere() const { return point_; }  ///< all but its position
 
  private:
   SurfacePoint point_;
