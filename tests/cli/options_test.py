@@ -213,9 +213,9 @@ class Help(unittest.TestCase):
         for kind in self.kinds():
             page = self.page("help", *kind.split()).split("Where it stands")[0]
             for name, value in re.findall(r"^  (\w+) .*\n.*default ([-\d. ]+|[a-z]+)$", page, re.MULTILINE):
-                needed = {"animation": "duration 4 "}.get(kind, "")
+                needed = {"animation": "duration 4 ", "sky image": 'file "tests/render/expected/first.png" '}.get(kind, "")
                 scene = f"{kind}{' used' if kind == 'material' else ''} {{ {needed}{name} {value} }}\n"
-                done = program.run("check", "-", stdin=scene.encode())
+                done = program.run("check", "-", stdin=scene.encode(), cwd=program.ROOT)
                 self.assertEqual(done.returncode, 0, scene + done.stderr.decode())
 
 

@@ -15,7 +15,8 @@ FRAME = {"camera": "camera { position 0.5 1 6 look_at 0 0 0 }", "light": "light 
 
 
 # What these kinds can't be without.
-NEEDED = {"triangle": {"a": "0 0 0", "b": "1 0 0", "c": "0 1 0"}, "animation": {"duration": "4"}}
+NEEDED = {"triangle": {"a": "0 0 0", "b": "1 0 0", "c": "0 1 0"}, "animation": {"duration": "4"},
+          "sky image": {"file": '"tests/render/expected/first.png"'}}
 # What a single property can't be without.
 ALONG = {"eta": " k 3.9 2.4 1.6", "k": " eta 0.14 0.37 1.44"}
 # All kinds share the code that places them: these stand for all.
@@ -78,7 +79,7 @@ class BadNumbers(unittest.TestCase):
         for kind, properties in kinds():
             for name, values in properties.items():
                 scene = scene_around(kind.split()[0], block(kind, name, values))
-                done = program.run("check", "-", stdin=scene.encode())
+                done = program.run("check", "-", stdin=scene.encode(), cwd=program.ROOT)
                 self.assertEqual(done.returncode, 0, scene + done.stderr.decode())
 
     def test_each_property_with_each_number(self):
@@ -97,7 +98,7 @@ class BadNumbers(unittest.TestCase):
     def try_out(self, kind, name, values, number):
         scene = scene_around(kind.split()[0], block(kind, name, values))
         done = program.run("-", "-o", "-", "--size", "6x4", "--threads", "1", "--samples", "1", stdin=scene.encode(),
-                           preexec_fn=limit)
+                           preexec_fn=limit, cwd=program.ROOT)
         self.assertIn(done.returncode, (0, 1), scene + done.stderr.decode())
         if number in SURELY_WRONG:
             self.assertEqual(done.returncode, 1, scene)
@@ -139,7 +140,7 @@ class Messages(unittest.TestCase):
         for kind, properties in kinds():
             for name, sound in properties.items():
                 scene = scene_around(kind.split()[0], block(kind, name, ["1e999"] + sound[1:]))
-                done = program.run("check", "--format", "json", "-", stdin=scene.encode())
+                done = program.run("check", "--format", "json", "-", stdin=scene.encode(), cwd=program.ROOT)
                 messages = [json.loads(line) for line in done.stdout.decode().splitlines()]
                 self.assertEqual((done.returncode, len(messages)), (1, 1), scene)
                 self.assertIn("1e999", messages[0]["message"])
