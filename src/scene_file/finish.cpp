@@ -259,13 +259,15 @@ bool has_light(const SceneDescription& scene, Method method) {
 
 // --- what looks like a slip -------------------------------------------------------------------------------
 
+bool is_within(const Box3f& box, const Vector3f& point) {
+  return glm::all(glm::greaterThan(point, box.lower)) && glm::all(glm::lessThan(point, box.upper));
+}
+
 // Whether a finite shape encloses the point: seen from there it shows its inside in all directions. An open
 // cylinder does not, and neither does a sheet.
 bool encloses(const Shape& shape, const Vector3f& point) {
   const Box3f box = shape.bounds();
-  const bool is_near = box.is_finite() && glm::all(glm::greaterThan(point, box.lower)) &&
-                       glm::all(glm::lessThan(point, box.upper));
-  if (!is_near) return false;
+  if (!box.is_finite() || !is_within(box, point)) return false;
   constexpr float kAside = 0.123f;  // edges and seams lie along the axes
   for (int axis = 0; axis < 3; ++axis) {
     for (const float side : {-1.0f, 1.0f}) {
@@ -295,7 +297,7 @@ void warn_of_buried_lights(const SceneDraft& draft, Diagnostics& diagnostics) {
     for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
       if (lets_light_out(scene.materials[scene.material_of[s]])) continue;
       if (!encloses(*scene.shapes[s], light.position)) continue;
-      if (encloses(*scene.shapes[s], Vector3f(scene.camera.position()))) continue;
+      if (is_within(scene.shapes[s]->bounds(), Vector3f(scene.camera.position()))) continue;
       diagnostics.warning(draft.light_places[i], "the light stands inside a closed shape, which hides it",
                           "give the shape a material with 'emission' to see it shine");
       break;
