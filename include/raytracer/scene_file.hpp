@@ -102,7 +102,8 @@ struct LoadedScene {
   Animation animation;
   bool depends_on_time = false;
   std::vector<Parameter> parameters;
-  std::uint64_t shapes = 0;  ///< how many were built
+  std::uint64_t shapes = 0;         ///< how many were built
+  std::uint64_t picture_bytes = 0;  ///< the memory that the pictures of textures and skies take
 
   bool ok() const { return static_cast<bool>(scene_at); }
 };

@@ -115,7 +115,11 @@ std::string other_text(std::string_view word) {
   if (const FunctionRow* function = scene_file::find_function(word))
     return fmt::format("{}: {}\n", call_of(*function), function->help);
   const LibraryMaterial* material = scene_file::find_library_material(word);
-  return material == nullptr ? std::string() : material_text(*material);
+  if (material != nullptr) return material_text(*material);
+  // A variant by its own word: checker, a texture.
+  const auto kind = std::ranges::find(scene_file::all_kinds(), word, &KindRow::variant);
+  return kind == scene_file::all_kinds().end() || word.empty() ? std::string()
+                                                               : kinds_text(kind->name, kind->variant);
 }
 
 [[noreturn]] void unknown_word(const std::string& message, std::string_view word,

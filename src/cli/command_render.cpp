@@ -107,6 +107,7 @@ int run_render(const Options& options) {
   if (!options.statistics.empty()) check_output(options.statistics, scene.files_read);
   const std::unique_ptr<FrameSink> sink = open_target(target, shots, scene, run, watch);
   run.shapes = scene.shapes;
+  run.picture_bytes = scene.picture_bytes;
   run.load = watch.lap();
   {
     ProgressBar bar(on_terminal, shots.size());

@@ -40,10 +40,11 @@ std::string summary(const std::string& path, const RunStatistics& run) {
 std::string to_json(const RunStatistics& run) {
   return fmt::format(
       R"({{"load": {:.6f}, "build": {:.6f}, "render": {:.6f}, "encode": {:.6f}, "write": {:.6f}, "total": {:.6f}, )"
-      R"("rays": {}, "mrays_per_second": {:.3f}, "peak_mb": {:.1f}, "shapes": {}}})"
+      R"("rays": {}, "mrays_per_second": {:.3f}, "peak_mb": {:.1f}, "picture_mb": {:.3f}, "shapes": {}}})"
       "\n",
       run.load, run.build, run.render, run.encode, run.write, run.total(), run.rays,
-      run.million_rays_per_second(), peak_memory_in_megabytes(), run.shapes);
+      run.million_rays_per_second(), peak_memory_in_megabytes(),
+      static_cast<double>(run.picture_bytes) / 1048576, run.shapes);
 }
 
 }  // namespace raytracer::cli

@@ -26,6 +26,7 @@ struct RunStatistics {
   double encode = 0;  ///< the picture's file in memory
   double write = 0;
   std::uint64_t rays = 0, shapes = 0;
+  std::uint64_t picture_bytes = 0;       ///< of textures and skies
   std::uint64_t pictures = 0, kept = 0;  ///< made, and of these found from an earlier run
   int width = 0, height = 0;             ///< of the picture rendered last
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/display_curve.hpp"
 #include "core/parallel.hpp"
 #include "raytracer/image.hpp"
 
@@ -93,11 +94,6 @@ Color3f toned(const Color3f& light, Tone tone) {
 // --- display values
 // ---------------------------------------------------------------------------------------------
 
-// IEC 61966-2-1.
-float srgb(float linear) {
-  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
-}
-
 // Less than half a step up or down, spread so evenly over neighbours that their mean is the value itself.
 // J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
 float dither(int x, int y, int channel) {
@@ -126,7 +122,9 @@ Image develop(Image image, const Development& development) {
       if (development.tone != Tone::kNone)
         light = toned(glm::clamp(light, 0.0F, kBrightest), development.tone);
       for (int c = 0; c < 3; ++c) {
-        const float value = kWhite * srgb(glm::clamp(light[c], 0.0F, 1.0F));
+        const float value =
+            kWhite *
+            static_cast<float>(display_from_linear(static_cast<double>(glm::clamp(light[c], 0.0F, 1.0F))));
         light[c] = glm::clamp(value + dither(x, y, c), 0.0F, kWhite);
       }
       image.set(x, y, light);

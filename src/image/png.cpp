@@ -78,6 +78,8 @@ bool write_chunks(png_structp png, png_infop info, const PngJob& job) {
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   png_set_IHDR(png, info, job.width, job.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
+  // The values are a display's; gAMA and cHRM say so to readers that don't know sRGB.
+  png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_text(png, info, job.texts.data(), static_cast<int>(job.texts.size()));
   png_write_info(png, info);
   static constexpr png_byte kPixels[] = "IDAT", kEnd[] = "IEND";

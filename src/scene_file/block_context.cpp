@@ -29,6 +29,10 @@ void BlockContext::error(std::string_view property, std::string message, std::st
   builder_.diagnostics_.error(place_of(property), std::move(message), std::move(suggestion));
 }
 
+void BlockContext::value_error(std::string_view property, std::string message, std::string suggestion) {
+  builder_.diagnostics_.error(given(property)->values, std::move(message), std::move(suggestion));
+}
+
 void BlockContext::warning(std::string_view property, std::string message, std::string suggestion) {
   builder_.diagnostics_.warning(place_of(property), std::move(message), std::move(suggestion));
 }
@@ -51,7 +55,7 @@ void BlockContext::report_bad_shape(std::string_view problem) {
 }
 
 // Notes a property as given; false where it was given before, which is an error unless it places the block.
-bool BlockContext::accept(const PropertyRow& row, const Place& place) {
+bool BlockContext::accept(const PropertyRow& row, const Place& place, const Place& values) {
   const Given* first = given(row.name);
   const bool repeatable =
       row.is_repeatable || (is_placing(row) && row.name != "pivot" && row.name != "matrix");
@@ -61,7 +65,7 @@ bool BlockContext::accept(const PropertyRow& row, const Place& place) {
     return false;
   }
   if (given_.empty()) given_.reserve(8);
-  if (first == nullptr) given_.push_back({&row, place});
+  if (first == nullptr) given_.push_back({&row, place, values});
   return true;
 }
 
@@ -149,7 +153,10 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
     report_unknown_property(property.name);
     return false;
   }
-  if (!accept(*row, place(property.whole()))) return false;
+  const Span whole = property.whole();
+  if (!accept(*row, place(whole),
+              place({property.values.empty() ? whole.begin : property.values.front().span.begin, whole.end})))
+    return false;
   if (row->store_texture != nullptr && parameters_ == nullptr) {
     if (const auto is_sound = fill_texture_item(*row, property, input)) return *is_sound;
   }
@@ -191,13 +198,14 @@ bool BlockContext::fill_block(const BlockNode& block, void* input) {
   const std::string_view word = around_.source->text(block.kind);
   const PropertyRow* row = find_property(row_, word);
   if (row != nullptr && row->type == PropertyType::kMaterial && block.words.empty()) {
-    if (!accept(*row, place(block.header()))) return false;
+    if (!accept(*row, place(block.header()), place(block.header()))) return false;
     material_ = builder_.build_inline_material(block, around_);
     note_material();
     return material_.has_value();
   }
   if (row != nullptr && row->store_texture != nullptr && block.words.size() == 1 && parameters_ == nullptr) {
-    return accept(*row, place(block.header())) && fill_texture_block(*row, block, input);
+    return accept(*row, place(block.header()), place(block.header())) &&
+           fill_texture_block(*row, block, input);
   }
   if (row != nullptr && (row->type != PropertyType::kMaterial || !row_.has_children)) {
     const bool names_material = row->type == PropertyType::kMaterial;

@@ -45,7 +45,8 @@ struct PlacingWords {
 /// A property that a block was given.
 struct Given {
   const PropertyRow* row = nullptr;
-  Place place;  ///< name and values
+  Place place;   ///< name and values
+  Place values;  ///< the values alone
 };
 
 /// What a piece of text sees of each stack of names.
@@ -93,6 +94,8 @@ class BlockContext {
   bool is_given(std::string_view property) const { return given(property) != nullptr; }
   /// An error at a property, or at the block's header where the property was not given.
   void error(std::string_view property, std::string message, std::string suggestion = {});
+  /// Likewise, at the values of a property that was given.
+  void value_error(std::string_view property, std::string message, std::string suggestion = {});
   void warning(std::string_view property, std::string message, std::string suggestion = {});
   /// Of a property, or of the block's header where the property was not given.
   Place place_of(std::string_view property) const;
@@ -158,7 +161,7 @@ class BlockContext {
       -> decltype(read(file));
   void note_material();
   bool check_required();
-  bool accept(const PropertyRow& row, const Place& place);
+  bool accept(const PropertyRow& row, const Place& place, const Place& values);
   bool apply_placing(const PropertyRow& row, const Argument& argument, const Place& place);
   void store(const PropertyRow& row, const Argument& argument, void* input);
   void report_unknown_property(Span name);

@@ -104,12 +104,12 @@ constexpr PropertyRow kMaterial[] = {
                                          "Bends the normal: red, green, blue are along u, v and away.")
         .or_texture<&MaterialInput::textures, &MaterialTextures::normal_map>()
         .for_textures_alone()
-        .or_else("none"),
+        .or_else("not given"),
     property<&MaterialInput::normal_scale>("normal_scale", "How strongly it does.").within({-100, 100}),
     property<&MaterialInput::bump>("bump", "Heights that bend the normal, as if they were there.")
         .or_texture<&MaterialInput::textures, &MaterialTextures::bump>()
         .for_textures_alone()
-        .or_else("none"),
+        .or_else("not given"),
     property<&MaterialInput::bump_scale>("bump_scale", "The height of 1.").in("scene units"),
 };
 

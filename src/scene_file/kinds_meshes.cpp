@@ -38,9 +38,7 @@ constexpr PropertyRow kMesh[] = {
     property<&MeshInput::colors>("colors", "The colour of each corner, three numbers each.")
         .within(kNotNegative),
     property<&MeshInput::smooth>(
-        "smooth",
-        "Triangles that meet at no more than this angle look like one curved surface; 0 "
-        "shows every triangle flat.")
+        "smooth", "Triangles that meet at no more than this angle look curved; 0: every one is flat.")
         .in("degrees")
         .within(kCreaseAngle)
         .or_else("as the file says"),

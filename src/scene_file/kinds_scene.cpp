@@ -73,17 +73,17 @@ constexpr PropertyRow kCamera[] = {
     property<&CameraInput::focal_length>("focal_length", "With f_number, in place of aperture.")
         .in(kLength)
         .within(kPositive)
-        .or_else("none"),
+        .or_else("not given"),
     property<&CameraInput::f_number>("f_number", "The focal length divided by the lens's diameter.")
         .within(kPositive)
-        .or_else("none"),
+        .or_else("not given"),
     property<&CameraInput::focus>("focus", "How far away what is sharp is, along the view.")
         .in(kLength)
         .within(kPositive)
         .or_else("the distance to look_at"),
     property<&CameraInput::focus_on>("focus_on", "The name of a shape to be sharp, in place of focus.")
         .as(PropertyType::kName)
-        .or_else("none"),
+        .or_else("not given"),
     property<&CameraInput::blades>("blades", "The corners of the lens's opening; 0 is round.")
         .within({0, 100}),
     property<&CameraInput::blade_rotate>("blade_rotate", "Turns them, counter-clockwise.").in(kDegrees),
@@ -150,9 +150,9 @@ void build_camera(const CameraInput& in, BlockContext& block) {
   for (const std::string_view word : {"fov", "vertical_fov"}) {
     const double angle = (word == "fov" ? in.fov : in.vertical_fov).value_or(0);
     if (angle <= kWidestFlat || in.projection == Projection::kFisheye) continue;
-    return block.error(word,
-                       fmt::format("'{}' must be between 0.001 and {}, found {}", word, kWidestFlat, angle),
-                       "projection fisheye shows more");
+    return block.value_error(
+        word, fmt::format("'{}' must be between 0.001 and {}, found {}", word, kWidestFlat, angle),
+        "projection fisheye shows more");
   }
   if (in.focus && !in.focus_on.empty()) {
     return block.error("focus_on", "a camera has either 'focus' or 'focus_on'", "remove one of them");

@@ -211,6 +211,7 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
   if (!diagnostics.has_errors()) {
     scene_file::SceneDraft& draft = builder.draft();
     loaded.shapes = builder.shapes_made();
+    loaded.picture_bytes = files.pictures().bytes();
     loaded.animation = {draft.duration, draft.fps};
     scene_text->fps = draft.fps;
     for (const Builder::TopLevelLet& let : builder.top_level_lets()) {

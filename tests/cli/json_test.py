@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import shutil
 import tempfile
 import unittest
 
@@ -60,7 +61,8 @@ class FromText(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def check_same(self, scene, time="0", options=()):
-        written = self.folder / "scene.json"
+        """In JSON the scene makes the same picture. It is written beside the scene: it names the same files."""
+        written = scene.with_suffix(".json")
         done = run("json", scene, "--time-at", time, "-o", written, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
         parsed = json.loads(written.read_text())
@@ -80,7 +82,7 @@ class FromText(unittest.TestCase):
         return self.check_same(scene, **more)
 
     def test_all_example_scenes(self):
-        scenes = sorted((ROOT / "scenes").rglob("*.txt"))
+        scenes = sorted(shutil.copytree(ROOT / "scenes", self.folder / "scenes").rglob("*.txt"))
         self.assertGreater(len(scenes), 10)
         for scene in scenes:
             if "shutter" in scene.read_text() or run("check", scene).returncode != 0:

@@ -213,9 +213,13 @@ class Help(unittest.TestCase):
         for kind in self.kinds():
             page = self.page("help", *kind.split()).split("Where it stands")[0]
             for name, value in re.findall(r"^  (\w+) .*\n.*default ([-\d. ]+|[a-z]+)$", page, re.MULTILINE):
-                needed = {"animation": "duration 4 "}.get(kind, "")
-                scene = f"{kind}{' used' if kind == 'material' else ''} {{ {needed}{name} {value} }}\n"
-                done = program.run("check", "-", stdin=scene.encode())
+                picture = 'file "tests/render/expected/first.png" '
+                needed = {"animation": "duration 4 ", "sky image": picture, "texture image": picture,
+                          "texture ramp": "stop 0 red  stop 1 blue ",
+                          "mesh": "vertices 0 0 0  1 0 0  0 1 0  faces 0 1 2 "}.get(kind, "")
+                named = f"{kind} used" if kind.split()[0] in ("material", "texture") else kind
+                scene = f"{named} {{ {needed}{name} {value} }}\n"
+                done = program.run("check", "-", stdin=scene.encode(), cwd=program.ROOT)
                 self.assertEqual(done.returncode, 0, scene + done.stderr.decode())
 
 

@@ -145,7 +145,7 @@ class SameBytes(unittest.TestCase):
 class Png(unittest.TestCase):
     def chunks(self):
         done = program.run("-", "-o", "-", "--size", "21x13",
-                           stdin=b"light { }\ncamera { position 0 0 5 }\nsphere { }\n")
+                           stdin=b"light { position 0 9 0 }\ncamera { position 0 0 5 }\nsphere { }\n")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         return png_chunks(done.stdout)
 

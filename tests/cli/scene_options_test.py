@@ -103,7 +103,7 @@ class Statistics(unittest.TestCase):
         done = self.run_here("--stats", "s.json", "--set", "n=3")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, b"", b""))
         told = json.loads((self.folder / "s.json").read_text())
-        self.assertEqual(set(told), {*self.STAGES, "total", "rays", "mrays_per_second", "peak_mb", "shapes"})
+        self.assertEqual(set(told), {*self.STAGES, "total", "rays", "mrays_per_second", "peak_mb", "picture_mb", "shapes"})
         for stage in self.STAGES:
             self.assertGreaterEqual(told[stage], 0)
         self.assertAlmostEqual(told["total"], sum(told[stage] for stage in self.STAGES), delta=1e-5)

@@ -63,7 +63,7 @@ SLIPS = [
     ("one edge of three 0", "cube { size 1 «0» 1 }", ["size", "greater than 0"]),
     ("colour above 1", "material m { color 0.5 «255» 0.5 }\nsphere { material m }", ["color", "between 0 and 1"]),
     ("negative colour", "background { color «-0.1» 0 0 }", ["color"]),
-    ("field of view 180", "camera { «fov 180» }", ["fov", "179"]),
+    ("field of view 180", "camera { fov «180» }", ["fov", "179"]),
     ("no pixels", "image { size «0» 10 }", ["size", "1"]),
     ("too many pixels", "image { size 10 «100000» }", ["size", "65536"]),
     ("no samples", "render { samples «0» }", ["samples"]),

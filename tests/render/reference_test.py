@@ -1,22 +1,18 @@
 """The program against an independent tracer, and against the project's reference picture where that is at hand."""
 
 import array
-import os
 import pathlib
 import random
-import subprocess
-import sys
 import tempfile
 import unittest
-import venv
 
 import plain_tracer
 import program
+import reference_pictures
 from float_pictures import Picture, render, render_bytes, share_of_different_pixels
 from plain_tracer import Quad, Sphere
 
 CLASSIC_POINT = program.ROOT / "tests" / "data" / "classic_point.txt"
-REFERENCE = pathlib.Path(os.environ.get("RAYTRACER_REFERENCE", program.ROOT.parent / "shared" / "reference"))
 
 
 def classic_point():
@@ -105,39 +101,15 @@ class PlainTracer(unittest.TestCase):
         self.check(scene, plain_tracer.text_of(scene), 160, 120)
 
 
-def python_with(*packages):
-    """A Python that has the packages of PyPI: this one, or one beside the program. Skips where there is none."""
-    check = "import numpy, PIL, OpenEXR"
-    if subprocess.run([sys.executable, "-c", check], capture_output=True, check=False).returncode == 0:
-        return sys.executable
-    home = pathlib.Path(program.PROGRAM).resolve().parent / "reference-venv"
-    python = home / "bin" / "python"
-    if python.exists() and subprocess.run([python, "-c", check], capture_output=True, check=False).returncode == 0:
-        return python
-    install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--retries", "0",
-               "--timeout", "15", *packages]
-    try:
-        venv.create(home, with_pip=True)
-        subprocess.run(install, capture_output=True, check=True, timeout=300)
-    except (subprocess.SubprocessError, OSError) as failure:
-        raise unittest.SkipTest(f"no {', '.join(packages)} here, and PyPI gives none ({failure})") from failure
-    return python
-
-
 class ReferencePicture(unittest.TestCase):
     """Compared by the reference's own script. RAYTRACER_REFERENCE names the folder with compare.py."""
 
     def compare(self, falloff, *options):
-        script = REFERENCE / "compare.py"
-        if not script.exists():
-            self.skipTest(f"no reference pictures in {REFERENCE}")
-        python = python_with("numpy", "pillow", "OpenEXR")
         scene = CLASSIC_POINT.read_text(encoding="utf-8").replace("light {", f"light {{ falloff {falloff} ")
         with tempfile.TemporaryDirectory() as folder:
             picture = pathlib.Path(folder) / "classic_point.pfm"
             picture.write_bytes(render_bytes(scene))
-            done = subprocess.run([python, script, REFERENCE / "classic_point", picture, "--no-flip", *options],
-                                  capture_output=True, text=True, check=False, timeout=120)
+            done = reference_pictures.compare("classic_point", picture, *options)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue(done.stdout.startswith("ok"), done.stdout)
 

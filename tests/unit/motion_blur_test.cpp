@@ -157,7 +157,8 @@ TEST_CASE("progress counts the tiles of every slice, and stops between them too"
 LoadedScene load(const std::string& text) { return load_scene_text(text, "test.txt"); }
 
 TEST_CASE("a camera's shutter is a share of a frame's time") {
-  const std::string camera = "camera { position 0 0 9 shutter 0.5 }\nlight { }\nrender { samples 16 }\n";
+  const std::string camera =
+      "camera { position 0 0 9 shutter 0.5 }\nlight { position 0 9 0 }\nrender { samples 16 }\n";
   const LoadedScene moving = load("animation { duration 2 fps 20 }\nsphere { center t 0 0 }\n" + camera);
   REQUIRE(moving.diagnostics.empty());
   REQUIRE(std::abs(moving.settings.shutter - 0.025) < 1e-15);
@@ -169,7 +170,8 @@ TEST_CASE("a camera's shutter is a share of a frame's time") {
 
 TEST_CASE("all moments of an open shutter belong to its frame") {
   const LoadedScene scene = load(
-      "animation { duration 4 fps 30 }\nsphere { center t 0 0 }\nlight { }\nrender { samples 64 }\n"
+      "animation { duration 4 fps 30 }\nsphere { center t 0 0 }\nlight { position 0 9 0 }\nrender { samples "
+      "64 }\n"
       "camera { position 0 0 (9 + frame) shutter 1 }\n");
   REQUIRE(scene.diagnostics.empty());
   for (const int frame : {1, 2, 30, 31, 100, 120}) {
@@ -187,10 +189,10 @@ TEST_CASE("all moments of an open shutter belong to its frame") {
 TEST_CASE("too few samples for an open shutter are warned of") {
   const auto warnings = [](int samples, const char* center) {
     std::string all;
-    const LoadedScene scene =
-        load(fmt::format("camera {{ position 0 0 9 shutter 0.5 }}\nlight {{ }}\nsphere {{ center {} 0 0 "
-                         "}}\nrender {{ samples {} }}\n",
-                         center, samples));
+    const LoadedScene scene = load(fmt::format(
+        "camera {{ position 0 0 9 shutter 0.5 }}\nlight {{ position 0 9 0 }}\nsphere {{ center {} 0 0 "
+        "}}\nrender {{ samples {} }}\n",
+        center, samples));
     REQUIRE(scene.ok());
     for (const Diagnostic& diagnostic : scene.diagnostics) {
       REQUIRE(diagnostic.line == 1);

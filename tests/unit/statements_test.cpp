@@ -797,8 +797,8 @@ TEST_CASE("settings hold at every time", "[statements]") {
 
 TEST_CASE("what is defined and never used is warned of, and no more", "[statements]") {
   const auto warnings = [](const std::string& text) {
-    const LoadedScene scene =
-        load_scene_text("camera { position 0 0 9 look_at 0 0 0 } light { } sphere { } " + text, "s.txt");
+    const LoadedScene scene = load_scene_text(
+        "camera { position 0 0 9 look_at 0 0 0 } light { position 0 9 9 } sphere { } " + text, "s.txt");
     INFO(errors_of(scene));
     REQUIRE(scene.ok());
     return scene.diagnostics.size();
