@@ -35,6 +35,10 @@ PICTURES = {  # name: (its scene, what else the command line says)
     "dominoes": ("gallery/dominoes", [*SMALL, "--time-at", "4"]),
     **{name: (f"gallery/{name}", LIT)
        for name in ("cornell-box", "materials", "glass-of-water", "watch", "product-shot", "still-life")},
+    # textures, skies and lenses, by method path
+    **{name: (f"gallery/{name}", ["--size", "400x250", "--samples", samples])
+       for name, samples in (("kitchen-shelf", "144"), ("chess", "144"), ("morning-room", "256"), ("macro", "400"))},
+    "panorama": ("gallery/panorama", ["--size", "400x200", "--samples", "144"]),
 }
 
 
@@ -108,7 +112,7 @@ def main():
         scene, arguments = PICTURES[name]
         picture = IMAGES / f"{name}.png"
         data = render(scene, arguments)
-        picture.write_bytes(with_palette(data) if arguments[:2] == SMALL[:2] else data)
+        picture.write_bytes(with_palette(data) if arguments[1].startswith("400x") else data)
         print(f"{picture.relative_to(ROOT)}  {picture.stat().st_size // 1000} kB")
 
 
