@@ -23,6 +23,7 @@ sys.path += [str(ROOT / "tests"), str(ROOT / "tests" / "render")]
 from pictures import read_png
 
 SMALL = ["--size", "400x250", "--samples", "16"]
+LIT = [*SMALL[:3], "192"]  # of method path, which takes more to be without noise
 
 PICTURES = {  # name: (its scene, what else the command line says)
     "first": ("first", ["--size", "800x450", "--samples", "16"]),
@@ -32,6 +33,8 @@ PICTURES = {  # name: (its scene, what else the command line says)
     "step-09": ("tutorial/step-09", [*SMALL, "--set", "night=true"]),
     **{name: (f"gallery/{name}", SMALL) for name in ("staircase", "city", "clock", "forest", "sphereflake", "periodic-table")},
     "dominoes": ("gallery/dominoes", [*SMALL, "--time-at", "4"]),
+    **{name: (f"gallery/{name}", LIT)
+       for name in ("cornell-box", "materials", "glass-of-water", "watch", "product-shot", "still-life")},
     # textures, skies and lenses, by method path
     **{name: (f"gallery/{name}", ["--size", "400x250", "--samples", samples])
        for name, samples in (("kitchen-shelf", "144"), ("chess", "144"), ("morning-room", "256"), ("macro", "400"))},

@@ -1,6 +1,7 @@
 #include "integrators/path_tracer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -39,6 +40,12 @@ float weight_of_met(Sampling sampling, float chosen, float by_lights) {
 
 bool is_cutout(const Material& material) {
   return material.alpha < 1 || (material.textures != nullptr && material.textures->alpha != nullptr);
+}
+
+// Not inlined, so that the shape writes the point where it is wanted: GCC else copies it, and waits for the
+// stores of single floats that it reads eight at once.
+[[gnu::noinline]] SurfacePoint surface_at(const Scene& scene, const Ray3f& ray, const Hit& hit) {
+  return scene.surface_at(ray, hit);
 }
 
 bool any_material(const SceneDescription& scene, bool (*fits)(const Material&)) {
@@ -128,21 +135,22 @@ PathTracer::PathTracer(const Scene& scene, const PathSettings& settings, const P
       points_(points),
       media_(media),
       lights_(scene.lights()),
-      has_cutouts_(any_material(scene.description(), is_cutout)) {}
+      has_cutouts_(any_material(scene.description(), is_cutout)),
+      has_media_(any_material(scene.description(), has_inside)) {}
 
-void PathTracer::trace(std::span<const ConeRay> rays, std::span<const PathNumber> numbers,
-                       std::span<Color3f> colors) {
+void PathTracer::trace(std::span<const Ray3f> rays, std::span<const RayCone> cones,
+                       std::span<const PathNumber> numbers, std::span<Color3f> colors) {
   colors_ = colors;
   std::ranges::fill(colors, Color3f(0));
   paths_.clear();
   paths_.resize(rays.size());
   numbers_.assign(numbers.begin(), numbers.end());
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
-    paths_[i].ray = rays[i].ray;
-    paths_[i].cone = rays[i].cone;
+    paths_[i].ray = rays[i];
     paths_[i].slot = i;
-    paths_[i].media = media_;
   }
+  cones_.assign(cones.begin(), cones.end());
+  if (has_media_) media_of_.assign(rays.size(), media_);
   for (int depth = 0; !paths_.empty(); ++depth) {
     find_hits(depth);
     draw_points(depth);
@@ -160,23 +168,20 @@ void PathTracer::draw_points(int depth) {
   }
 }
 
-// The eye's rays go the same way; scattered ones are as fast one by one.
+// In packets throughout: the eye's rays go the same way, and even scattered ones gain a little.
 void PathTracer::find_hits(int depth) {
   const std::size_t count = paths_.size();
+  const Coherence coherence = depth == 0 ? Coherence::kCoherent : Coherence::kIncoherent;
   ray_count_ += count;
   hits_.assign(count, Hit{});
-  is_hit_.assign(count, 0);
-  if (depth == 0) {
-    rays_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) rays_[i] = paths_[i].ray;
-    for (std::size_t first = 0; first < count; first += kMostRays) {
-      const std::size_t size = std::min(kMostRays, count - first);
-      const std::uint32_t found = scene_.is_hit(std::span(rays_).subspan(first, size),
-                                                std::span(hits_).subspan(first, size), Coherence::kCoherent);
-      for (std::size_t i = 0; i < size; ++i) is_hit_[first + i] = found >> i & 1U;
-    }
-  } else {
-    for (std::size_t i = 0; i < count; ++i) is_hit_[i] = scene_.is_hit(paths_[i].ray, hits_[i]) ? 1 : 0;
+  is_hit_.resize(count);
+  std::array<Ray3f, kMostRays> rays;
+  for (std::size_t first = 0; first < count; first += kMostRays) {
+    const std::size_t size = std::min(kMostRays, count - first);
+    for (std::size_t i = 0; i < size; ++i) rays[i] = paths_[first + i].ray;
+    const std::uint32_t found =
+        scene_.is_hit(std::span(rays).first(size), std::span(hits_).subspan(first, size), coherence);
+    for (std::size_t i = 0; i < size; ++i) is_hit_[first + i] = found >> i & 1U;
   }
   for (std::uint32_t i = 0; i < count; ++i) pass_through(paths_[i], i, depth);
 }
@@ -210,8 +215,7 @@ void PathTracer::shade(int depth) {
     if (is_hit_[i] == 0) {
       add_sky(paths_[i], depth);
     } else if (shade_hit(paths_[i], i, depth)) {
-      paths_[kept] = paths_[i];
-      numbers_[kept] = numbers_[i];
+      if (kept != i) move_path(i, kept);
       ++kept;
     }
   }
@@ -220,25 +224,36 @@ void PathTracer::shade(int depth) {
   numbers_.resize(kept);
 }
 
+void PathTracer::move_path(std::size_t from, std::size_t to) {
+  paths_[to] = paths_[from];
+  numbers_[to] = numbers_[from];
+  if (!cones_.empty()) cones_[to] = cones_[from];
+  if (has_media_) media_of_[to] = media_of_[from];
+}
+
 // The light of one vertex; false where the path ends there.
 bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   const Hit& hit = hits_[index];
   const Material& material = scene_.material_of(hit);
-  Vertex vertex{hit, material, &material, scene_.surface_at(path.ray, hit), {}, {}, {}, {}};
+  Vertex vertex{hit, material, &material, raytracer::surface_at(scene_, path.ray, hit), {}, {}, {}, {}};
   const float length = glm::length(path.ray.direction);
   vertex.out = -path.ray.direction / length;
   const bool is_outside = glm::dot(vertex.surface.normal, vertex.out) > 0;
   vertex.facing = is_outside ? vertex.surface.normal : -vertex.surface.normal;
   const float distance = hit.t * length;
-  const Vector3f aside = path.cone.aside_at(distance);
-  path.cone = path.cone.at(distance);
-
-  if (const Material* medium = path.media.innermost()) {
-    path.throughput *= glm::exp(-distance * absorption_of(*medium));
+  RayCone cone;
+  if (!cones_.empty()) {
+    cone = cones_[index];
+    cones_[index] = cone.at(distance);
+  }
+  const Media* const media = has_media_ ? &media_of_[index] : nullptr;
+  if (media != nullptr && media->innermost() != nullptr) {
+    path.throughput *= glm::exp(-distance * absorption_of(*media->innermost()));
   }
   std::optional<Material> textured;
   if (material.textures != nullptr || scene_.has_vertex_colors()) {
-    textured = scene_.textured(path.ray, hit, path.cone.width, vertex.surface, aside);
+    textured =
+        scene_.textured(path.ray, hit, cone.at(distance).width, vertex.surface, cone.aside_at(distance));
     vertex.resolved = &*textured;
   }
   if (vertex.resolved->is_emissive()) add_emission(path, vertex, depth);
@@ -257,12 +272,10 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   frame.geometric_normal = vertex.surface.normal;
   frame.normal = is_outside ? shading : -shading;
   if (material.anisotropy != 0) frame.tangent = scene_.detail_at(path.ray, hit).along_u;
-  if (has_inside(material)) {
-    frame.ior_outside = is_outside ? path.media.ior() : path.media.ior_without(&material);
-    frame.ior_inside = material.ior;
-  } else {
-    frame.ior_outside = path.media.ior();
-    frame.ior_inside = material.ior;
+  frame.ior_inside = material.ior;
+  if (media != nullptr) {
+    const bool leaves = has_inside(material) && !is_outside;
+    frame.ior_outside = leaves ? media->ior_without(&material) : media->ior();
   }
   const Bsdf bsdf(*vertex.resolved, frame);
   if (!bsdf.is_delta()) add_direct_light(path, vertex, bsdf, index, depth);
@@ -331,15 +344,16 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   path.from = vertex.surface.position;
   path.from_normal = vertex.light_side;
   path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
-  if (!sample.is_delta) path.cone.spread = std::max(path.cone.spread, 0.1F);
+  if (!sample.is_delta && !cones_.empty()) cones_[index].spread = std::max(cones_[index].spread, 0.1F);
   if (sample.is_transmission && has_inside(vertex.material)) {
-    const float before = path.media.ior();
+    Media& media = media_of_[index];
+    const float before = media.ior();
     if (glm::dot(sample.direction, vertex.surface.normal) < 0) {
-      path.media.enter(&vertex.material);
+      media.enter(&vertex.material);
     } else {
-      path.media.leave(&vertex.material);
+      media.leave(&vertex.material);
     }
-    const float ratio = path.media.ior() / before;
+    const float ratio = media.ior() / before;
     path.radiance_scale *= ratio * ratio;
   }
   const float survival = roulette(path, depth, chance_points_[index].x);

@@ -24,12 +24,6 @@ struct PathSettings {
   std::uint32_t seed = 0;
 };
 
-/// A ray of unit direction with how wide the part of the picture is that it stands for.
-struct ConeRay {
-  Ray3f ray;
-  RayCone cone;
-};
-
 /// The media around the eye: what a path starts inside of.
 Media media_at(const Scene& scene, const Vector3f& position);
 
@@ -40,9 +34,11 @@ class PathTracer {
   /// All of them must outlive it.
   PathTracer(const Scene& scene, const PathSettings& settings, const PathPoints& points, const Media& media);
 
-  /// colors[i] becomes the radiance, 1 is white, that one path along rays[i] estimates. Its random numbers
-  /// are those of numbers[i]; pair 0 of them has been spent on the picture and pair 1 on the lens.
-  void trace(std::span<const ConeRay> rays, std::span<const PathNumber> numbers, std::span<Color3f> colors);
+  /// colors[i] becomes the radiance, 1 is white, that one path along rays[i], of unit direction, estimates.
+  /// Its random numbers are those of numbers[i]; pair 0 of them has been spent on the picture and pair 1 on
+  /// the lens. cones[i] is how much of the picture it stands for; without them it is a point.
+  void trace(std::span<const Ray3f> rays, std::span<const RayCone> cones, std::span<const PathNumber> numbers,
+             std::span<Color3f> colors);
 
   /// How many rays that took so far.
   std::uint64_t rays() const { return ray_count_; }
@@ -52,11 +48,9 @@ class PathTracer {
     Ray3f ray;
     Color3f throughput{1};
     Vector3f from{0}, from_normal{0};  // where the ray's direction was chosen, as LightSet wants it
-    float pdf = 0;  // of that choice; 0: the eye's or a mirror's, which no light could have chosen
-    RayCone cone;
+    float pdf = 0;             // of that choice; 0: the eye's or a mirror's, which no light could have chosen
     float radiance_scale = 1;  // what refractions have made of the throughput, for the roulette
     std::uint32_t slot = 0;    // in colors
-    Media media;
   };
 
   // Shadow rays that wait until they are a packet, and what each lets pass.
@@ -74,6 +68,7 @@ class PathTracer {
   void pass_through(Path& path, std::uint32_t index, int depth);
   bool is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const;
   void shade(int depth);
+  void move_path(std::size_t from, std::size_t to);
   bool shade_hit(Path& path, std::uint32_t index, int depth);
   void add_sky(const Path& path, int depth);
   void add_emission(const Path& path, const Vertex& vertex, int depth);
@@ -91,12 +86,14 @@ class PathTracer {
   const PathPoints& points_;
   const Media& media_;
   const LightSet& lights_;
-  bool has_cutouts_;
+  bool has_cutouts_, has_media_;
   std::uint64_t ray_count_ = 0;
 
   std::vector<Path> paths_;  // those that go on; compacted after every bounce
   std::vector<PathNumber> numbers_;
-  std::vector<Ray3f> rays_;
+  // Likewise what only textures and only see-through scenes need; empty in others.
+  std::vector<RayCone> cones_;
+  std::vector<Media> media_of_;
   std::vector<Hit> hits_;
   std::vector<std::uint8_t> is_hit_;
   std::vector<Vector2f> light_points_, choice_points_, scatter_points_, chance_points_;

@@ -121,6 +121,17 @@ RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pi
           middle.origin - ray.origin, middle.direction - ray.direction};
 }
 
+bool has_textures(const SceneDescription& scene) {
+  const auto is_textured = [](const Material& material) { return material.textures != nullptr; };
+  return std::ranges::any_of(scene.materials, is_textured) ||
+         std::ranges::any_of(scene.shared, [&](const auto& shared) {
+           for (std::uint32_t i = 0; i < shared->size(); ++i) {
+             if (is_textured(shared->material_of(i))) return true;
+           }
+           return false;
+         });
+}
+
 // Renders the samples of one slice of time by the paper's recursion.
 class ClassicRenderer {
  public:
@@ -177,17 +188,6 @@ class ClassicRenderer {
     return sobol_point(owen_scramble(static_cast<std::uint32_t>(sample), seed), hash_bits(seed));
   }
 
-  static bool has_textures(const SceneDescription& scene) {
-    const auto is_textured = [](const Material& material) { return material.textures != nullptr; };
-    return std::ranges::any_of(scene.materials, is_textured) ||
-           std::ranges::any_of(scene.shared, [&](const auto& shared) {
-             for (std::uint32_t i = 0; i < shared->size(); ++i) {
-               if (is_textured(shared->material_of(i))) return true;
-             }
-             return false;
-           });
-  }
-
   // Another point of the same kind, for the places on what shines.
   Vector2f point_of_lights(const glm::ivec2& pixel, int sample) const {
     const auto number = static_cast<std::uint32_t>(image_.index(pixel.x, pixel.y));
@@ -213,6 +213,7 @@ class PathRenderer {
         image_(image),
         paths_{settings.bounces, settings.sampling, settings.clamp_indirect, settings.seed},
         points_(settings.samples, settings.seed),
+        has_textures_(has_textures(scene.description())),
         media_(media_at(scene, scene.camera().position())) {
     scene.lights();  // gathered before the threads begin
   }
@@ -221,7 +222,8 @@ class PathRenderer {
     TileSums sums(tile, image_);
     const std::vector<glm::ivec2>& pixels = sums.pixels();
     std::vector<Color3f> colors(pixels.size());
-    std::vector<ConeRay> rays(pixels.size());
+    std::vector<Ray3f> rays(pixels.size());
+    std::vector<RayCone> cones(has_textures_ ? pixels.size() : 0);
     std::vector<PathNumber> numbers(pixels.size());
     std::vector<Vector2f> places(pixels.size()), on_lens(pixels.size(), Vector2f(0.5F));
     const bool has_lens = scene_.camera().has_lens();
@@ -231,8 +233,12 @@ class PathRenderer {
         numbers[i] = points_.number(pixels[i].x, pixels[i].y, sample);
       points_.fill(0, numbers, places);
       if (has_lens) points_.fill(1, numbers, on_lens);
-      for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = cone_ray(pixels[i], places[i], on_lens[i]);
-      tracer.trace(rays, numbers, colors);
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        rays[i] = camera_ray(scene_, image_, pixels[i], places[i], on_lens[i]);
+        if (!has_textures_) continue;
+        cones[i] = camera_cone(scene_, image_, pixels[i], places[i], on_lens[i], rays[i], settings_.samples);
+      }
+      tracer.trace(rays, cones, numbers, colors);
       sums.add(colors, kWhite);
     }
     sums.store(slice_, settings_.samples);
@@ -242,18 +248,13 @@ class PathRenderer {
  private:
   static constexpr float kWhite = 255;
 
-  ConeRay cone_ray(const glm::ivec2& pixel, const Vector2f& place, const Vector2f& lens) const {
-    const Ray3f ray = camera_ray(scene_, image_, pixel, place, lens);
-    const RayCone cone = camera_cone(scene_, image_, pixel, place, lens, ray, settings_.samples);
-    return {ray, cone};
-  }
-
   const Scene& scene_;
   const RenderSettings& settings_;
   const Slice& slice_;
   Image& image_;
   PathSettings paths_;
   PathPoints points_;
+  bool has_textures_;
   Media media_;
 };
 

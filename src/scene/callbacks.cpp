@@ -1,5 +1,6 @@
 #include "scene/callbacks.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -93,6 +94,45 @@ RayPacket load(RTCRayN* rays, unsigned n, unsigned first, const int* valid) {
 // The next float above x, which is positive and finite.
 float next_above(float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) + 1); }
 
+// All bits of a lane's number set, or none: what compilers make the processor's own vectors of.
+using LaneMask = std::array<std::uint32_t, kLanes>;
+
+constexpr std::uint32_t mask_of(bool is_set) { return is_set ? 0xFFFFFFFFU : 0; }
+
+// Sets the chosen lanes, each of 32 bits.
+void replace_lanes(void* to, const void* from, const LaneMask& chosen) {
+  std::array<std::uint32_t, kLanes> old, next;
+  std::memcpy(old.data(), to, sizeof old);
+  std::memcpy(next.data(), from, sizeof next);
+  for (std::size_t i = 0; i < kLanes; ++i) next[i] = (next[i] & chosen[i]) | (old[i] & ~chosen[i]);
+  std::memcpy(to, next.data(), sizeof next);
+}
+
+void replace_lanes(void* to, std::uint32_t number, const LaneMask& chosen) {
+  std::array<std::uint32_t, kLanes> everywhere;
+  everywhere.fill(number);
+  replace_lanes(to, everywhere.data(), chosen);
+}
+
+// comes_before() for eight lanes, of those that have a hit. Mostly that is of the same geometry.
+LaneMask lanes_before(const RTCIntersectFunctionNArguments& args, const unsigned* instance,
+                      const unsigned* geometry, const unsigned* primitive) {
+  const unsigned own = args.context->instID[0], asked = args.geomID, part = args.primID;
+  LaneMask comes_first;
+  std::uint32_t others = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const std::uint32_t same = mask_of(geometry[i] == asked) & mask_of(instance[i] == own);
+    comes_first[i] = same & mask_of(part < primitive[i]);
+    others |= ~same & mask_of(geometry[i] != RTC_INVALID_GEOMETRY_ID);
+  }
+  if (others == 0) return comes_first;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    comes_first[i] = mask_of(geometry[i] != RTC_INVALID_GEOMETRY_ID &&
+                             comes_before(args, instance[i], geometry[i], primitive[i]));
+  }
+  return comes_first;
+}
+
 void intersect_eight(const RTCIntersectFunctionNArguments& args, unsigned first) {
   RTCRayN* rays = RTCRayHitN_RayN(args.rayhit, args.N);
   RTCHitN* found = RTCRayHitN_HitN(args.rayhit, args.N);
@@ -100,27 +140,27 @@ void intersect_eight(const RTCIntersectFunctionNArguments& args, unsigned first)
   unsigned* primitive = &RTCHitN_primID(found, args.N, first);
   unsigned* instance = &RTCHitN_instID(found, args.N, first, 0);
   RayPacket packet = load(rays, args.N, first, args.valid + first);
-  for (int i = 0; i < kLanes; ++i) {  // as in intersect_one
-    const bool comes_first =
-        geometry[i] != RTC_INVALID_GEOMETRY_ID && comes_before(args, instance[i], geometry[i], primitive[i]);
-    packet.t_max[i] = (comes_first & (packet.t_max[i] > 0)) ? next_above(packet.t_max[i]) : packet.t_max[i];
+  const LaneMask comes_first = lanes_before(args, instance, geometry, primitive);  // as in intersect_one
+  for (int i = 0; i < kLanes; ++i) {
+    const bool is_extended = (comes_first[static_cast<std::size_t>(i)] != 0) & (packet.t_max[i] > 0);
+    packet.t_max[i] = is_extended ? next_above(packet.t_max[i]) : packet.t_max[i];
   }
   HitPacket hits;
   shape_of(args.geometryUserPtr, args.primID).find_hits(packet, hits);
-  float* t_max = &RTCRayN_tfar(rays, args.N, first);
-  float* u = &RTCHitN_u(found, args.N, first);
-  float* v = &RTCHitN_v(found, args.N, first);
-  float* part = &RTCHitN_Ng_x(found, args.N, first);
+  LaneMask is_hit;
+  std::uint32_t any = 0;
   for (int i = 0; i < kLanes; ++i) {
-    if (!(hits.t[i] < kInfinity)) continue;
-    t_max[i] = hits.t[i];
-    geometry[i] = args.geomID;
-    primitive[i] = args.primID;
-    instance[i] = args.context->instID[0];
-    u[i] = hits.u[i];
-    v[i] = hits.v[i];
-    part[i] = std::bit_cast<float>(hits.primitive[i]);
+    is_hit[static_cast<std::size_t>(i)] = mask_of(hits.t[i] < kInfinity);
+    any |= is_hit[static_cast<std::size_t>(i)];
   }
+  if (any == 0) return;
+  replace_lanes(&RTCRayN_tfar(rays, args.N, first), hits.t, is_hit);
+  replace_lanes(&RTCHitN_u(found, args.N, first), hits.u, is_hit);
+  replace_lanes(&RTCHitN_v(found, args.N, first), hits.v, is_hit);
+  replace_lanes(&RTCHitN_Ng_x(found, args.N, first), hits.primitive, is_hit);
+  replace_lanes(geometry, args.geomID, is_hit);
+  replace_lanes(primitive, args.primID, is_hit);
+  replace_lanes(instance, args.context->instID[0], is_hit);
 }
 
 void occlude_eight(const RTCOccludedFunctionNArguments& args, unsigned first) {
@@ -141,17 +181,19 @@ inline void for_valid_lanes(const Arguments& args, const One& one, const Eight& 
     if (args.valid[0] != 0) one(args, 1, 0);
     return;
   }
-  for (unsigned first = 0; first < args.N; first += kLanes) {
-    const unsigned end = first + kLanes < args.N ? first + kLanes : args.N;
-    unsigned count = 0, last = 0;
-    for (unsigned i = first; i < end; ++i) {
-      count += args.valid[i] != 0;
-      last = args.valid[i] != 0 ? i : last;
+  if (args.N % kLanes != 0) {
+    for (unsigned i = 0; i < args.N; ++i) {
+      if (args.valid[i] != 0) one(args, args.N, i);
     }
-    if (count > 1 && end - first == kLanes) {
+    return;
+  }
+  for (unsigned first = 0; first < args.N; first += kLanes) {
+    unsigned count = 0;
+    for (unsigned i = first; i < first + kLanes; ++i) count += args.valid[i] != 0;
+    if (count > 1) {
       eight(args, first);
     } else if (count > 0) {
-      for (unsigned i = first; i <= last; ++i) {
+      for (unsigned i = first; i < first + kLanes; ++i) {
         if (args.valid[i] != 0) one(args, args.N, i);
       }
     }

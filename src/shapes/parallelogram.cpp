@@ -4,15 +4,14 @@
 #include <cmath>
 
 #include "shapes/checks.hpp"
-#include "shapes/part_sampling.hpp"
 
 namespace raytracer::shapes {
 
 namespace {
 
-/// Farther away than this many diagonals the directions are as good as uniform over the area, which is
-/// chosen in a tenth of the time.
-constexpr double kNear = 2.5;
+/// Farther away than this many diagonals the directions are nearly uniform over the area, which is chosen in
+/// a tenth of the time.
+constexpr double kNear = 1;
 /// Below this solid angle (a rectangle seen edge-on) the sums of angles lose their digits.
 constexpr double kLeastSolidAngle = 1e-5;
 /// Below this cosine of the angle between the edges they count as orthogonal.
@@ -92,16 +91,25 @@ class SphericalRectangle {
   double solid_angle_ = 0;
 };
 
-bool is_near_rectangle(const Parallelogram& shape, const Vector3d& from) {
-  const Vector3d diagonal = shape.width + shape.height;
-  const Vector3d to_middle = shape.corner + 0.5 * diagonal - from;
-  if (glm::dot(to_middle, to_middle) > kNear * kNear * glm::dot(diagonal, diagonal)) return false;
+bool is_rectangle(const Parallelogram& shape) {
   const double slant = glm::dot(shape.width, shape.height);
   return slant * slant <= kOrthogonal * kOrthogonal * glm::dot(shape.width, shape.width) *
                               glm::dot(shape.height, shape.height);
 }
 
 }  // namespace
+
+Parallelogram::Parallelogram(const Vector3d& from_corner, const Vector3d& along_width,
+                             const Vector3d& along_height, const Vector3d& unit_normal)
+    : corner(from_corner),
+      width(along_width),
+      height(along_height),
+      normal(unit_normal),
+      area_(glm::length(glm::cross(width, height))) {
+  const Vector3d diagonal = width + height;
+  middle_ = corner + 0.5 * diagonal;
+  if (is_rectangle(*this)) near_squared_ = kNear * kNear * glm::dot(diagonal, diagonal);
+}
 
 Box3f Parallelogram::bounds() const {
   Vector3d lower = corner, upper = corner;
@@ -112,33 +120,21 @@ Box3f Parallelogram::bounds() const {
   return rounded_bounds(lower, upper);
 }
 
-float Parallelogram::choose(const Vector3d& from, const Vector2f& u, glm::dvec2& st) const {
-  if (is_near_rectangle(*this, from)) {
-    if (glm::dot(from - corner, normal) == 0) return 0;
-    const SphericalRectangle seen(*this, from);
-    if (seen.solid_angle() > kLeastSolidAngle) {
-      st = seen.choose(u);
-      return usable_density(1 / seen.solid_angle());
-    }
+float Parallelogram::choose_near(const Vector3d& from, const Vector2f& u, glm::dvec2& st) const {
+  if (glm::dot(from - corner, normal) == 0) return 0;
+  const SphericalRectangle seen(*this, from);
+  if (seen.solid_angle() > kLeastSolidAngle) {
+    st = seen.choose(u);
+    return usable_density(1 / seen.solid_angle());
   }
   st = {static_cast<double>(u.x), static_cast<double>(u.y)};
   return area_density(from, at(st));
 }
 
-float Parallelogram::pdf(const Vector3d& from, const Vector3d& position) const {
-  if (is_near_rectangle(*this, from)) {
-    const SphericalRectangle seen(*this, from);
-    if (seen.solid_angle() > kLeastSolidAngle) return usable_density(1 / seen.solid_angle());
-  }
+float Parallelogram::pdf_near(const Vector3d& from, const Vector3d& position) const {
+  const SphericalRectangle seen(*this, from);
+  if (seen.solid_angle() > kLeastSolidAngle) return usable_density(1 / seen.solid_angle());
   return area_density(from, position);
-}
-
-float Parallelogram::area_density(const Vector3d& from, const Vector3d& position) const {
-  // The height of `from` above the plane, free of the rounding of `position`.
-  const Vector3d way = position - from;
-  const double squared = glm::dot(way, way);
-  const double facing = std::abs(glm::dot(from - corner, normal));
-  return usable_density(squared * std::sqrt(squared) / (area() * facing));
 }
 
 }  // namespace raytracer::shapes

@@ -25,6 +25,7 @@ class Quad final : public Shape {
       : origin_(origin), width_(width), height_(height) {
     const Vector3d area = glm::cross(width, height);
     normal_ = glm::normalize(area);
+    face_ = {origin, width, height, normal_};
     along_width_ = glm::cross(height, area) / glm::dot(area, area);
     along_height_ = glm::cross(area, width) / glm::dot(area, area);
     const Vector3d corners[] = {origin, origin + width, origin + height, origin + width + height};
@@ -34,8 +35,10 @@ class Quad final : public Shape {
       upper = glm::max(upper, corner);
     }
     bounds_ = shapes::rounded_bounds(lower, upper);
-    extent_ = upper - lower;
-    arithmetic_ = 8 * kDoubleRounding * (glm::length(origin_) + glm::length(extent_));
+    shapes::SurfaceBound bound;
+    bound.extent = upper - lower;
+    bound.arithmetic = 8 * kDoubleRounding * (glm::length(origin_) + glm::length(bound.extent));
+    flat_ = shapes::FlatSurface(glm::max(glm::abs(lower), glm::abs(upper)), normal_, bound);
   }
 
   Box3f bounds() const override { return bounds_; }
@@ -73,33 +76,29 @@ class Quad final : public Shape {
   std::uint32_t part_count() const override { return 1; }
 
   PartExtent part_extent(std::uint32_t) const override {
-    return shapes::flat_extent(bounds_, parallelogram().area(), normal_);
+    return shapes::flat_extent(bounds_, face_.area(), normal_);
   }
 
   bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
                    ShapeSample& sample) const override {
     glm::dvec2 weights;
-    const float pdf = parallelogram().choose(Vector3d(from), u, weights);
+    const float pdf = face_.choose(Vector3d(from), u, weights);
     if (!(pdf > 0)) return false;
-    const SurfacePoint point = surface_of(weights);
+    sample.position = Vector3f(face_.at(weights));
+    sample.position_error = flat_.anywhere().position_error;
+    sample.normal = flat_.anywhere().normal;
+    sample.pdf = pdf;
     sample.u = static_cast<float>(weights.x);
     sample.v = static_cast<float>(weights.y);
-    return shapes::set_sample(point, pdf, sample);
+    return true;
   }
 
   float part_pdf(std::uint32_t, const Vector3f& from, const SurfacePoint& point) const override {
-    return parallelogram().pdf(Vector3d(from), Vector3d(point.position));
+    return face_.pdf(Vector3d(from), Vector3d(point.position));
   }
 
  private:
-  shapes::Parallelogram parallelogram() const { return {origin_, width_, height_, normal_}; }
-
-  SurfacePoint surface_of(const glm::dvec2& weights) const {
-    shapes::SurfaceBound bound;
-    bound.arithmetic = arithmetic_;
-    bound.extent = extent_;
-    return shapes::rounded_surface(parallelogram().at(weights), normal_, bound);
-  }
+  SurfacePoint surface_of(const glm::dvec2& weights) const { return flat_.at(face_.at(weights)); }
 
   struct PlaneHit {
     double t, u, v;
@@ -122,8 +121,8 @@ class Quad final : public Shape {
   Vector3d origin_, width_, height_;
   Vector3d normal_;
   Vector3d along_width_, along_height_;  // the product with a point of the plane, from origin_, is its u or v
-  Vector3d extent_{0.0};
-  double arithmetic_ = 0;  // error of the arithmetic on a point of the surface
+  shapes::Parallelogram face_;
+  shapes::FlatSurface flat_;
   Box3f bounds_;
 };
 

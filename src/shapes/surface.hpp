@@ -38,4 +38,28 @@ inline SurfacePoint rounded_surface(const Vector3d& position, const Vector3d& no
   return point;
 }
 
+/// The same for all points of a flat part at once: the greatest of their bounds stands for all, so that a
+/// point costs no more than its rounding.
+class FlatSurface {
+ public:
+  FlatSurface() = default;
+  /// `farthest` holds the greatest |x|, |y| and |z| of its points.
+  FlatSurface(const Vector3d& farthest, const Vector3d& normal, const SurfaceBound& bound) {
+    // Once for the position, once for the origin of a ray that starts there.
+    SurfaceBound both = bound;
+    both.arithmetic += kFloatRounding * glm::dot(glm::abs(normal), farthest);
+    point_ = rounded_surface(as_float(farthest), normal, both);
+  }
+
+  SurfacePoint at(const Vector3d& position) const {
+    SurfacePoint point = point_;
+    point.position = Vector3f(position);
+    return point;
+  }
+  const SurfacePoint& anywhere() const { return point_; }  ///< all but its position
+
+ private:
+  SurfacePoint point_;
+};
+
 }  // namespace raytracer::shapes
