@@ -12,20 +12,22 @@
 #include "scene_file/lexer.hpp"
 
 namespace raytracer::scene_file {
-namespace {
 
 std::string_view symbol_of(Operation operation) {
   switch (operation) {
-    case Operation::kAdd:
-      return "+";
+    case Operation::kNegate:
     case Operation::kSubtract:
       return "-";
+    case Operation::kNot:
+      return "not ";
     case Operation::kMultiply:
       return "*";
     case Operation::kDivide:
       return "/";
     case Operation::kRemainder:
       return "%";
+    case Operation::kPower:
+      return "^";
     case Operation::kLess:
       return "<";
     case Operation::kLessEqual:
@@ -43,9 +45,11 @@ std::string_view symbol_of(Operation operation) {
     case Operation::kOr:
       return "or";
     default:
-      return "?";
+      return "+";
   }
 }
+
+namespace {
 
 bool is_comparison(Operation operation) {
   return operation >= Operation::kLess && operation <= Operation::kNotEqual;

@@ -48,6 +48,9 @@ class Budget {
   std::uint64_t steps_left_;
 };
 
+/// An operator as it is written; "not " with the blank that follows it.
+std::string_view symbol_of(Operation operation);
+
 class Evaluator {
  public:
   Evaluator(Names& names, const Moment& moment, Budget& budget, Diagnostics& diagnostics);

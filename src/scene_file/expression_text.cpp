@@ -9,42 +9,6 @@
 namespace raytracer::scene_file {
 namespace {
 
-std::string_view symbol_of(Operation operation) {
-  switch (operation) {
-    case Operation::kNegate:
-    case Operation::kSubtract:
-      return "-";
-    case Operation::kNot:
-      return "not ";
-    case Operation::kMultiply:
-      return "*";
-    case Operation::kDivide:
-      return "/";
-    case Operation::kRemainder:
-      return "%";
-    case Operation::kPower:
-      return "^";
-    case Operation::kLess:
-      return "<";
-    case Operation::kLessEqual:
-      return "<=";
-    case Operation::kGreater:
-      return ">";
-    case Operation::kGreaterEqual:
-      return ">=";
-    case Operation::kEqual:
-      return "==";
-    case Operation::kNotEqual:
-      return "!=";
-    case Operation::kAnd:
-      return "and";
-    case Operation::kOr:
-      return "or";
-    default:
-      return "+";
-  }
-}
-
 class Writer {
  public:
   Writer(const Source& source, const Visibility& visibility, Evaluator& evaluator)
