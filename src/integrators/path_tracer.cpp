@@ -253,6 +253,11 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   if (media != nullptr && media->innermost() != nullptr) {
     path.throughput *= glm::exp(-distance * absorption_of(*media->innermost()));
   }
+  if (media != nullptr && !is_outside && media->is_covered(&material)) {
+    media_of_[index].leave(&material);
+    path.ray = {vertex.offset_position(path.ray.direction, scene_.description().epsilon), path.ray.direction};
+    return true;
+  }
   std::optional<Material> textured;
   if (material.textures != nullptr || scene_.has_vertex_colors()) {
     textured =

@@ -1,6 +1,7 @@
 // What a path is inside of.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -16,6 +17,13 @@ class Media {
   /// Null outside of everything.
   const Material* innermost() const { return count_ > 0 ? stack_[count_ - 1] : nullptr; }
   float ior() const { return count_ > 0 ? stack_[count_ - 1]->ior : 1.0F; }
+
+  /// Whether the shape of this material ends inside of another that was entered later: where it ends nothing
+  /// is seen.
+  bool is_covered(const Material* material) const {
+    if (innermost() == material) return false;
+    return std::find(stack_.begin(), stack_.begin() + count_, material) != stack_.begin() + count_;
+  }
 
   /// The index of refraction where one is after leaving the shape of this material.
   float ior_without(const Material* material) const {

@@ -91,6 +91,23 @@ class Relations(unittest.TestCase):
         ball = "sphere { center 0 1.2 0.5  radius 0.4  material { color 1  transmission 1  ior 1 } }"
         self.assertLess(block_difference(path(scene + ball, 256), path(scene, 256)), 0.04)
 
+    def test_water_that_reaches_into_the_glass(self):
+        """A tank of glass with water in it, that overlaps its walls a little, and the same as glass with a body of water in it."""
+        scene = """camera { position 0 0.6 8  look_at 0 0 0  fov 30 }
+            background { color 0.4 0.5 0.6 }
+            quad { origin -9 -9 -4  width 9 0 0  height 0 18 0  material { color 0.9 0.2 0.1 } }
+            quad { origin 0 -9 -4  width 9 0 0  height 0 18 0  material { color 0.1 0.3 0.9 } }
+            light { position 3 5 6  intensity 900 }
+            """
+        corners = "(-S,-S,-S) (S,-S,-S) (S,S,-S) (-S,S,-S) (-S,-S,S) (S,-S,S) (S,S,S) (-S,S,S) "
+        tank = f"""mesh {{ material glass  vertices {corners.replace("S", "1.2")} {corners}
+            faces 0 2 1 0 3 2  4 5 6 4 6 7  0 1 5 0 5 4  3 7 6 3 6 2  0 4 7 0 7 3  1 2 6 1 6 5
+                  8 9 10 8 10 11  12 14 13 12 15 14  8 13 9 8 12 13  11 14 15 11 10 14  8 15 12 8 11 15  9 14 10 9 13 14 }}
+            cube {{ size 2.02  material water }}""".replace("S", "1")
+        bodies = "cube { size 2.4  material glass }\ncube { size 2  material water }"
+        overlapping, nested = (path(scene + f"group {{ rotate 0 30 0\n{inside} }}", 64) for inside in (tank, bodies))
+        self.assertLess(block_difference(overlapping, nested), 0.03)
+
     def test_light_and_material_sampling(self):  # M24
         scene = SKY + place(ROOM).replace("transmission 1  ior 1.5", "roughness 0.5")
 
