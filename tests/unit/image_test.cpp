@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -180,7 +181,8 @@ TEST_CASE("a PNG names its maker and no date", "[image][png]") {
   const auto chunks = chunks_of(encode_png(pattern(2000, 30)));
   std::vector<std::string> names;
   for (const auto& [name, contents] : chunks) names.push_back(name);
-  REQUIRE(names == std::vector<std::string>{"IHDR", "gAMA", "sRGB", "cHRM", "tEXt", "tEXt", "IDAT", "IDAT",
+  std::sort(names.begin() + 1, names.begin() + 4);  // versions of libpng have them in different order
+  REQUIRE(names == std::vector<std::string>{"IHDR", "cHRM", "gAMA", "sRGB", "tEXt", "tEXt", "IDAT", "IDAT",
                                             "IDAT", "IEND"});
   REQUIRE(chunks[4].second == std::string("Software\0raytracer", 18));
   REQUIRE(chunks[5].second.substr(0, 8) == std::string("Version\0", 8));
