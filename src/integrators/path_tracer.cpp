@@ -7,6 +7,7 @@
 
 #include "core/hash.hpp"
 #include "materials/absorption.hpp"
+#include "scene/any_material.hpp"
 
 namespace raytracer {
 namespace {
@@ -51,16 +52,6 @@ bool is_cutout(const Material& material) {
   return scene.surface_at(ray, hit);
 }
 
-bool any_material(const SceneDescription& scene, bool (*fits)(const Material&)) {
-  if (std::ranges::any_of(scene.materials, fits)) return true;
-  return std::ranges::any_of(scene.shared, [&](const auto& shared) {
-    for (std::uint32_t i = 0; i < shared->size(); ++i) {
-      if (fits(shared->material_of(i))) return true;
-    }
-    return false;
-  });
-}
-
 }  // namespace
 
 // --- where the eye is
@@ -68,7 +59,6 @@ bool any_material(const SceneDescription& scene, bool (*fits)(const Material&)) 
 
 Media media_at(const Scene& scene, const Vector3f& position) {
   Media media;
-  if (!any_material(scene.description(), has_inside)) return media;
   // Whatever the way out leaves without having entered it is around the point, the innermost first.
   constexpr int kMostSurfaces = 256;
   Media met;
@@ -90,6 +80,12 @@ Media media_at(const Scene& scene, const Vector3f& position) {
     hit = Hit{};
   }
   return media;
+}
+
+PathWorld::PathWorld(const Scene& scene)
+    : has_cutouts(any_material(scene.description(), is_cutout)),
+      has_media(any_material(scene.description(), has_inside)) {
+  if (has_media) media = media_at(scene, scene.camera().position());
 }
 
 // --- paths
@@ -132,14 +128,14 @@ struct PathTracer::Vertex {
 };
 
 PathTracer::PathTracer(const Scene& scene, const PathSettings& settings, const PathPoints& points,
-                       const Media& media)
+                       const PathWorld& world)
     : scene_(scene),
       settings_(settings),
       points_(points),
-      media_(media),
+      media_(world.media),
       lights_(scene.lights()),
-      has_cutouts_(any_material(scene.description(), is_cutout)),
-      has_media_(any_material(scene.description(), has_inside)) {}
+      has_cutouts_(world.has_cutouts),
+      has_media_(world.has_media) {}
 
 void PathTracer::trace(std::span<const Ray3f> rays, std::span<const RayCone> cones,
                        std::span<const PathNumber> numbers, std::span<Color3f> colors) {

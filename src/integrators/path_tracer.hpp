@@ -24,15 +24,25 @@ struct PathSettings {
   std::uint32_t seed = 0;
 };
 
-/// The media around the eye: what a path starts inside of.
+/// The media around a point: what a path from there starts inside of.
 Media media_at(const Scene& scene, const Vector3f& position);
+
+/// What all paths through a scene have in common; found once for all tiles.
+struct PathWorld {
+  explicit PathWorld(const Scene& scene);
+
+  bool has_cutouts;  ///< whether any material is there for some rays only
+  bool has_media;    ///< whether any has an inside
+  Media media;       ///< around the eye
+};
 
 /// Follows many paths at once, bounce by bounce, so that the shadow rays of every depth are traced in
 /// packets. Keeps its memory from one call to the next.
 class PathTracer {
  public:
   /// All of them must outlive it.
-  PathTracer(const Scene& scene, const PathSettings& settings, const PathPoints& points, const Media& media);
+  PathTracer(const Scene& scene, const PathSettings& settings, const PathPoints& points,
+             const PathWorld& world);
 
   /// colors[i] becomes the radiance, 1 is white, that one path along rays[i], of unit direction, estimates.
   /// Its random numbers are those of numbers[i]; pair 0 of them has been spent on the picture and pair 1 on

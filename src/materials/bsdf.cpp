@@ -45,9 +45,6 @@ float reflect_probability(const Color3f& reflected, const Color3f& through) {
   return t > 0 ? r / (r + t) : 1.0F;
 }
 
-/// A thin pane: light that goes to and fro between its two faces added up, R + (1-R)^2 R + ...
-float both_faces(float reflectance) { return 2 * reflectance / (1 + reflectance); }
-
 }  // namespace
 
 // --- the closure

@@ -89,4 +89,7 @@ inline Color3f fresnel_conductor_mean(const ConductorSquares& index) {
          0.40186383F * fresnel_conductor(index, 0.91141204F);
 }
 
+/// A thin pane: light that goes to and fro between its two faces added up, R + (1-R)^2 R + ...
+inline float both_faces(float reflectance) { return 2 * reflectance / (1 + reflectance); }
+
 }  // namespace raytracer

@@ -11,6 +11,7 @@
 #include "integrators/path_tracer.hpp"
 #include "raytracer/error.hpp"
 #include "sampling/sobol.hpp"
+#include "scene/any_material.hpp"
 #include "scene/pixel_color.hpp"
 #include "scene/shining_parts.hpp"
 
@@ -122,14 +123,7 @@ RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pi
 }
 
 bool has_textures(const SceneDescription& scene) {
-  const auto is_textured = [](const Material& material) { return material.textures != nullptr; };
-  return std::ranges::any_of(scene.materials, is_textured) ||
-         std::ranges::any_of(scene.shared, [&](const auto& shared) {
-           for (std::uint32_t i = 0; i < shared->size(); ++i) {
-             if (is_textured(shared->material_of(i))) return true;
-           }
-           return false;
-         });
+  return any_material(scene, [](const Material& material) { return material.textures != nullptr; });
 }
 
 // Renders the samples of one slice of time by the paper's recursion.
@@ -214,7 +208,7 @@ class PathRenderer {
         paths_{settings.bounces, settings.sampling, settings.clamp_indirect, settings.seed},
         points_(settings.samples, settings.seed),
         has_textures_(has_textures(scene.description())),
-        media_(media_at(scene, scene.camera().position())) {
+        world_(scene) {
     scene.lights();  // gathered before the threads begin
   }
 
@@ -227,7 +221,7 @@ class PathRenderer {
     std::vector<PathNumber> numbers(pixels.size());
     std::vector<Vector2f> places(pixels.size()), on_lens(pixels.size(), Vector2f(0.5F));
     const bool has_lens = scene_.camera().has_lens();
-    PathTracer tracer(scene_, paths_, points_, media_);
+    PathTracer tracer(scene_, paths_, points_, world_);
     for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
       for (std::size_t i = 0; i < pixels.size(); ++i)
         numbers[i] = points_.number(pixels[i].x, pixels[i].y, sample);
@@ -255,7 +249,7 @@ class PathRenderer {
   PathSettings paths_;
   PathPoints points_;
   bool has_textures_;
-  Media media_;
+  PathWorld world_;
 };
 
 // Counts tiles and tells the observer, one call at a time; remembers when it asked to stop.

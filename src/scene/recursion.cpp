@@ -30,9 +30,6 @@ float sharpness(float roughness) { return std::max(0.0f, 1 - 2 * roughness); }
 // Below, facets are a mirror: light that shines is seen in it instead of making a highlight on it.
 bool is_smooth(float roughness) { return roughness < 0.01f; }
 
-// A thin pane: light that goes to and fro between its two faces, added up.
-float both_faces(float reflectance) { return 2 * reflectance / (1 + reflectance); }
-
 }  // namespace
 
 // --- the paper -----------------------------------------------------------------------------------------
