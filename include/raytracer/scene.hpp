@@ -95,6 +95,15 @@ struct SceneDescription {
   }
 };
 
+/// How much around a hit textures are averaged over: of a bundle of rays, its cut at the hit. Scene units.
+struct Footprint {
+  float width = 0;        ///< across the ray, where nothing more is known
+  Vector3f dx{0}, dy{0};  ///< the edges of what the ray stands for; 0: a square of that width
+  /// From the hit to the middle of what the ray stands for, so that samples spread over a pixel average all
+  /// of it, and none of it twice.
+  Vector3f aside{0};
+};
+
 /// Immutable: any number of threads may ask it at once.
 class Scene {
  public:
@@ -127,13 +136,10 @@ class Scene {
     return description_.shapes[hit.shape]->detail_at(ray, hit);
   }
   const Material& material_of(const Hit& hit) const { return description_.material(hit.instance, hit.shape); }
-  /// Its material with the values that its textures have there; `width` is how much of the surface around the
-  /// hit, across the ray and in scene units, may be averaged over. The surface's shading normal follows the
-  /// material's normal map or bumps.
-  /// `aside`: from the hit to a point on the ray through the middle of what this one stands for; there the
-  /// textures are asked, so that samples spread over a pixel average all of it, and none of it twice.
-  Material textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface,
-                    const Vector3f& aside = Vector3f(0)) const;
+  /// Its material with the values that its textures have there, averaged over the footprint. The surface's
+  /// shading normal follows the material's normal map or bumps.
+  Material textured(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
+                    SurfacePoint& surface) const;
   /// The share of rays for which the surface is there.
   float alpha_at(const Ray3f& ray, const Hit& hit) const;
 

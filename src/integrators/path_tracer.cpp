@@ -256,8 +256,7 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   }
   std::optional<Material> textured;
   if (material.textures != nullptr || scene_.has_vertex_colors()) {
-    textured =
-        scene_.textured(path.ray, hit, cone.at(distance).width, vertex.surface, cone.aside_at(distance));
+    textured = scene_.textured(path.ray, hit, cone.footprint_at(distance), vertex.surface);
     vertex.resolved = &*textured;
   }
   if (vertex.resolved->is_emissive()) add_emission(path, vertex, depth);

@@ -103,23 +103,37 @@ Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel
   return scene.camera().ray_through(across, down, lens);
 }
 
-// The middle of the square of the pixel that a sample stands for: 4^k samples lie in as many squares. Others
-// stand for no square of their own.
-Vector2f middle_of_share(const Vector2f& within, int samples) {
+// 4^k samples lie in as many squares of the pixel, and each stands for its own; else each stands for as much
+// around itself.
+struct PixelShare {
+  Vector2f middle;  // within the pixel
+  float edge;
+};
+
+PixelShare share_of(const Vector2f& within, int samples) {
   const auto count = static_cast<unsigned>(samples);
-  if (!std::has_single_bit(count) || std::countr_zero(count) % 2 != 0) return within;
-  const auto edge = static_cast<float>(1U << static_cast<unsigned>(std::countr_zero(count) / 2));
-  return (glm::floor(within * edge) + 0.5F) / edge;
+  if (!std::has_single_bit(count) || std::countr_zero(count) % 2 != 0) {
+    return {within, 1 / std::sqrt(static_cast<float>(samples))};
+  }
+  const auto squares = static_cast<float>(1U << static_cast<unsigned>(std::countr_zero(count) / 2));
+  return {(glm::floor(within * squares) + 0.5F) / squares, 1 / squares};
 }
 
-// How wide what that ray stands for is. Many samples share a pixel: each stands for a part of it.
+// How wide what that ray stands for is.
 RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
                     const Vector2f& lens, const Ray3f& ray, int samples) {
-  const Ray3f next = camera_ray(scene, image, pixel, within + Vector2f(1, 0), lens);
-  const float share = 1 / std::sqrt(static_cast<float>(samples));
-  const Ray3f middle = camera_ray(scene, image, pixel, middle_of_share(within, samples), lens);
-  return {share * glm::length(next.origin - ray.origin), share * glm::length(next.direction - ray.direction),
-          middle.origin - ray.origin, middle.direction - ray.direction};
+  const PixelShare share = share_of(within, samples);
+  const double across = (pixel.x + static_cast<double>(share.middle.x)) / image.width;
+  const double down = (pixel.y + static_cast<double>(share.middle.y)) / image.height;
+  const Ray3f middle = scene.camera().ray_through(across, down, lens);
+  RayCone cone;
+  cone.aside_origin = middle.origin - ray.origin;
+  cone.aside_direction = middle.direction - ray.direction;
+  cone.edges = scene.camera().differential(across, down, lens, static_cast<double>(share.edge) / image.width,
+                                           static_cast<double>(share.edge) / image.height);
+  cone.width = glm::length(cone.edges.origin_dx);
+  cone.spread = glm::length(cone.edges.direction_dx);
+  return cone;
 }
 
 bool has_textures(const SceneDescription& scene) {

@@ -130,7 +130,7 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
   SurfacePoint point = scene_.surface_at(sight.ray, hit);
   std::optional<Material> textured;
   if (own.textures != nullptr || (scene_.has_vertex_colors() && own.takes_vertex_colors)) {
-    textured = scene_.textured(sight.ray, hit, sight.cone.at(hit.t).width, point, sight.cone.aside_at(hit.t));
+    textured = scene_.textured(sight.ray, hit, sight.cone.footprint_at(hit.t), point);
   }
   const Material& material = textured ? *textured : own;
 

@@ -10,10 +10,15 @@ namespace raytracer {
 struct RayCone {
   float width = 0;
   float spread = 0;
-  /// From the ray to the one through the middle of what it stands for: where it starts, and how that grows.
-  Vector3f aside{0}, aside_spread{0};
+  /// What the eye's rays know besides: how they differ from the ray through the middle of what they stand
+  /// for, and how that one changes over the edges of it. `aside_*` like the differential's.
+  Vector3f aside_origin{0}, aside_direction{0};
+  RayDifferential edges{};
 
-  Vector3f aside_at(float t) const { return aside + t * aside_spread; }
+  Footprint footprint_at(float t) const {
+    return {width + t * spread, edges.origin_dx + t * edges.direction_dx,
+            edges.origin_dy + t * edges.direction_dy, aside_origin + t * aside_direction};
+  }
   /// Of a ray that goes on from there.
   RayCone at(float t) const { return {width + t * spread, spread}; }
 };

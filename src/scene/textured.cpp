@@ -17,29 +17,25 @@ Vector2f uv_along(const SurfaceDetail& detail, const Vector3f& way) {
   return {(vv * u - uv * v) / determinant, (uu * v - uv * u) / determinant};
 }
 
-// Where a cone of this width around the ray cuts the surface: an ellipse that is the longer the more the
-// surface is seen from the side.
-TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const SurfaceDetail& detail,
-                           float width) {
-  TexturePoint point;
-  point.uv = detail.uv;
-  point.position = surface.position;
-  point.normal = surface.shading_normal;
-  if (!(width > 0)) return point;
-  const Vector3f direction = glm::normalize(ray.direction);
-  const Vector3f across = glm::cross(direction, surface.normal);
-  const float sine = glm::length(across);
+// `v` from a point on the ray to one beside it, carried along the ray back onto the surface's plane. Seen
+// from the side that is long, but ends.
+Vector3f onto_plane(const Vector3f& direction, const Vector3f& normal, const Vector3f& v) {
   constexpr float kLeastCosine = 1e-3F;
-  const float cosine = std::max(std::abs(glm::dot(direction, surface.normal)), kLeastCosine);
+  const float approach = glm::dot(direction, normal);
+  const float cosine = std::copysign(std::max(std::abs(approach), kLeastCosine), approach);
+  return v - direction * (glm::dot(v, normal) / cosine);
+}
+
+// The edges of a square of that width across the ray, one of them along the surface.
+void set_square(const Vector3f& direction, const Vector3f& normal, float width, TexturePoint& point) {
+  const Vector3f across = glm::cross(direction, normal);
+  const float sine = glm::length(across);
   const Vector3f side =
       sine > 1e-4F ? across / sine
                    : glm::normalize(std::abs(direction.x) > 0.5F ? glm::cross(direction, Vector3f(0, 1, 0))
                                                                  : glm::cross(direction, Vector3f(1, 0, 0)));
   point.position_dx = width * side;
-  point.position_dy = width / cosine * glm::cross(surface.normal, side);
-  point.uv_dx = uv_along(detail, point.position_dx);
-  point.uv_dy = uv_along(detail, point.position_dy);
-  return point;
+  point.position_dy = onto_plane(direction, normal, width * glm::cross(direction, side));
 }
 
 // To where the ray through ray.at(hit.t) + aside meets the surface's plane. Not farther than the footprint
@@ -56,14 +52,34 @@ void move_to_middle(const Ray3f& ray, const SurfacePoint& surface, const Surface
   point.uv += uv_along(detail, move);
 }
 
+// Where the footprint lies on the surface: the longer the more it is seen from the side.
+TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const SurfaceDetail& detail,
+                           const Footprint& footprint) {
+  TexturePoint point;
+  point.uv = detail.uv;
+  point.position = surface.position;
+  point.normal = surface.shading_normal;
+  if (!(footprint.width > 0)) return point;
+  const Vector3f direction = glm::normalize(ray.direction);
+  if (footprint.dx == Vector3f(0) || footprint.dy == Vector3f(0)) {
+    set_square(direction, surface.normal, footprint.width, point);
+  } else {
+    point.position_dx = onto_plane(direction, surface.normal, footprint.dx);
+    point.position_dy = onto_plane(direction, surface.normal, footprint.dy);
+  }
+  point.uv_dx = uv_along(detail, point.position_dx);
+  point.uv_dy = uv_along(detail, point.position_dy);
+  if (footprint.aside != Vector3f(0)) move_to_middle(ray, surface, detail, footprint.aside, point);
+  return point;
+}
+
 }  // namespace
 
-Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfacePoint& surface,
-                         const Vector3f& aside) const {
+Material Scene::textured(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
+                         SurfacePoint& surface) const {
   const Material& material = material_of(hit);
   const SurfaceDetail detail = detail_at(ray, hit);
-  TexturePoint point = texture_point(ray, surface, detail, width);
-  if (aside != Vector3f(0)) move_to_middle(ray, surface, detail, aside, point);
+  const TexturePoint point = texture_point(ray, surface, detail, footprint);
   if (material.textures != nullptr) {
     surface.shading_normal = perturbed_normal(material, detail, point, surface.shading_normal);
   }
@@ -75,7 +91,7 @@ Material Scene::textured(const Ray3f& ray, const Hit& hit, float width, SurfaceP
 float Scene::alpha_at(const Ray3f& ray, const Hit& hit) const {
   const Material& material = material_of(hit);
   if (material.textures == nullptr || material.textures->alpha == nullptr) return material.alpha;
-  return raytracer::alpha_at(material, texture_point(ray, surface_at(ray, hit), detail_at(ray, hit), 0));
+  return raytracer::alpha_at(material, texture_point(ray, surface_at(ray, hit), detail_at(ray, hit), {}));
 }
 
 }  // namespace raytracer
