@@ -22,7 +22,6 @@ void PixelColors::trace(std::span<const Ray3f> rays, int bounces, std::span<Colo
   if (levels_.empty()) levels_.resize(1);
   levels_[0].rays.assign(rays.begin(), rays.end());
   levels_[0].cones.assign(cones.begin(), cones.end());
-  levels_[0].cones.resize(rays.size());
   std::size_t depth = 0;
   for (; static_cast<int>(depth) <= bounces && !levels_[depth].rays.empty(); ++depth) {
     shade(depth, bounces - static_cast<int>(depth));
@@ -84,7 +83,7 @@ void PixelColors::shade_hit(std::size_t depth, int bounces_left, std::uint32_t r
   if (!is_of_paper(material)) {
     Recursion recursion(scene_, light_point(level, ray), rays_);
     Sight sight{seen_along, bounces_left, depth == 0};
-    sight.cone = level.cones[ray];
+    if (!level.cones.empty()) sight.cone = level.cones[ray];
     level.colors[ray] = recursion.look_at_layers(sight, hit).color;
     return;
   }
@@ -100,7 +99,7 @@ void PixelColors::shade_hit(std::size_t depth, int bounces_left, std::uint32_t r
   }
   if (shininess > 0 && next != nullptr) {
     next->rays.push_back(reflected_ray(seen_along, point));
-    next->cones.push_back(level.cones[ray].at(hit.t));
+    if (!level.cones.empty()) next->cones.push_back(level.cones[ray].at(hit.t));
     next->parent.push_back(ray);
     next->share.push_back(shininess * color);
     if (!light_points_.empty()) next->origin.push_back(level.origin.empty() ? ray : level.origin[ray]);

@@ -35,6 +35,15 @@ class TriangleMesh final : public Shape {
                    ShapeSample& sample) const override;
   float part_pdf(std::uint32_t part, const Vector3f& from, const SurfacePoint& point) const override;
 
+  /// Has the memory fetched that surface_at() will read of that triangle. Of many at once the waits overlap.
+  /// (A call, GCC holds, does nothing, and leaves it out.)
+  [[gnu::always_inline]] void prefetch(std::uint32_t part) const {
+    for (const std::uint32_t vertex : triangle(part)) {
+      __builtin_prefetch(data_->positions.data() + vertex);
+      if (!data_->normals.empty()) __builtin_prefetch(data_->normals.data() + vertex);
+    }
+  }
+
   const MeshData& data() const { return *data_; }
   std::uint32_t first_triangle() const { return begin_; }
   std::uint32_t triangle_count() const { return count_; }
