@@ -22,9 +22,9 @@ struct MaterialTextures {
   TexturePointer bump;        ///< a height along the normal, in scene units
 };
 
-/// Data alone. The paper's two words first; the rest means what glTF 2.0's metallic-roughness model and its
-/// ratified extensions mean by it. Shares are 0..1.
-struct Material {
+/// What a material is at one point. Data alone. The paper's two words first; the rest means what glTF 2.0's
+/// metallic-roughness model and its ratified extensions mean by it. Shares are 0..1.
+struct MaterialValues {
   Color3f color{0.8f};  ///< share of the light that the surface returns, per channel, 0..1
   float shininess = 0;  ///< share of a perfect mirror, clamped to 0..1: <= 0 is diffuse, >= 1 all mirror
 
@@ -58,11 +58,15 @@ struct Material {
   /// Whether the colours of a mesh's vertices multiply `color`.
   bool takes_vertex_colors = true;
 
+  bool is_emissive() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
+};
+
+/// The same everywhere but for what its textures say.
+struct Material : MaterialValues {
   std::shared_ptr<const MaterialTextures> textures;  ///< null: none
 
-  bool is_emissive() const {
-    return emission.x > 0 || emission.y > 0 || emission.z > 0 || (textures && textures->emission);
-  }
+  /// Whether it shines anywhere.
+  bool is_emissive() const { return MaterialValues::is_emissive() || (textures && textures->emission); }
 };
 
 }  // namespace raytracer

@@ -138,8 +138,8 @@ class Scene {
   const Material& material_of(const Hit& hit) const { return description_.material(hit.instance, hit.shape); }
   /// Its material with the values that its textures have there, averaged over the footprint. The surface's
   /// shading normal follows the material's normal map or bumps.
-  Material textured(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
-                    SurfacePoint& surface) const;
+  MaterialValues textured(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
+                          SurfacePoint& surface) const;
   /// The share of rays for which the surface is there.
   float alpha_at(const Ray3f& ray, const Hit& hit) const;
 

@@ -93,8 +93,8 @@ PathWorld::PathWorld(const Scene& scene)
 
 struct PathTracer::Vertex {
   const Hit& hit;
-  const Material& material;  // as the scene has it: tells media apart
-  const Material* resolved;  // with its textures' values here
+  const Material& material;        // as the scene has it: tells media apart
+  const MaterialValues* resolved;  // with its textures' values here
   SurfacePoint surface;
   Vector3f facing;         // the geometric normal on the side from which the ray came
   Vector3f out;            // unit length, back along the ray
@@ -254,7 +254,7 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
     path.ray = {vertex.offset_position(path.ray.direction, scene_.description().epsilon), path.ray.direction};
     return true;
   }
-  std::optional<Material> textured;
+  std::optional<MaterialValues> textured;
   if (material.textures != nullptr || scene_.has_vertex_colors()) {
     textured = scene_.textured(path.ray, hit, cone.footprint_at(distance), vertex.surface);
     vertex.resolved = &*textured;

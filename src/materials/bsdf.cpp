@@ -50,7 +50,7 @@ float reflect_probability(const Color3f& reflected, const Color3f& through) {
 // --- the closure
 // ----------------------------------------------------------------------------------------------
 
-Bsdf::Bsdf(const Material& material, const BsdfFrame& frame)
+Bsdf::Bsdf(const MaterialValues& material, const BsdfFrame& frame)
     : color_(share(material.color)),
       is_black_(material.is_area_light),
       is_matt_(!(material.shininess > 0) && !material.has_layer && !(material.metallic > 0) &&
@@ -73,7 +73,7 @@ Bsdf::Bsdf(const Material& material, const BsdfFrame& frame)
   is_delta_ = opaque_ <= 0 && alpha_x_ <= 0 && (coat_ <= 0 || coat_alpha_ <= 0);
 }
 
-void Bsdf::set_up_shares(const Material& material) {
+void Bsdf::set_up_shares(const MaterialValues& material) {
   mirror_ = share(material.shininess);
   const float rest = 1 - mirror_, metallic = share(material.metallic);
   const float transmission = share(material.transmission);
@@ -88,7 +88,7 @@ void Bsdf::set_up_shares(const Material& material) {
 }
 
 // glTF's KHR_materials_anisotropy: alpha along one axis is drawn towards 1 by the strength squared.
-void Bsdf::set_up_roughness(const Material& material, bool has_facets) {
+void Bsdf::set_up_roughness(const MaterialValues& material, bool has_facets) {
   const float roughness = share(material.roughness), alpha = roughness * roughness;
   const float strength = std::min(1.0F, std::abs(material.anisotropy));
   const float stretched = strength > 0 ? alpha + (1 - alpha) * strength * strength : alpha;
@@ -137,7 +137,7 @@ void Bsdf::set_up_frame(const BsdfFrame& frame) {
 
 // The layer stands on an opaque base only where the material says so; of a boundary only how far the indices
 // are apart counts, so that no opaque base ever hides behind total reflection.
-void Bsdf::set_up_layers(const Material& material, float outside) {
+void Bsdf::set_up_layers(const MaterialValues& material, float outside) {
   const float eta = index_of_refraction(material.ior) / outside;
   layer_eta_ = std::max(eta, 1 / eta);
   specular_ = share(material.specular);
@@ -169,7 +169,7 @@ void Bsdf::set_up_layers(const Material& material, float outside) {
 // (1 - E(o)) (1 - E(i)) / (pi (1 - mean E)); each reflection on the way takes Fresnel's mean, so that after
 // all F^2 E / (1 - F (1 - E)) of it is left (with means; the first of the two F is that of the light that
 // was held back, the second that of the last reflection).
-void Bsdf::set_up_metal(const Material& material, float outside) {
+void Bsdf::set_up_metal(const MaterialValues& material, float outside) {
   mirror_mean_loss_ = 0;
   const bool is_rough = alpha_x_ > 0;
   if (is_rough && has_compensation_ && (metal_ > 0 || (glass_ > 0 && is_thin_))) {

@@ -44,7 +44,7 @@ class Bsdf {
  public:
   /// Values out of their range count as the nearest within, what is not a number as 0. Textures are left
   /// alone: whoever has them resolved gives a material with their values. The material need not outlive it.
-  Bsdf(const Material& material, const BsdfFrame& frame);
+  Bsdf(const MaterialValues& material, const BsdfFrame& frame);
 
   /// value(out, in) * |cosine of in to the shading normal|, per channel, delta lobes left out. 0 where in or
   /// out is on the wrong side of either normal.
@@ -91,11 +91,11 @@ class Bsdf {
     float p_mirror, p_passing, p_coat, p_facet, p_back, p_through;
   };
 
-  void set_up_shares(const Material& material);
+  void set_up_shares(const MaterialValues& material);
   void set_up_frame(const BsdfFrame& frame);
-  void set_up_roughness(const Material& material, bool has_facets);
-  void set_up_layers(const Material& material, float outside);
-  void set_up_metal(const Material& material, float outside);
+  void set_up_roughness(const MaterialValues& material, bool has_facets);
+  void set_up_layers(const MaterialValues& material, float outside);
+  void set_up_metal(const MaterialValues& material, float outside);
   void set_up_sides(const BsdfFrame& frame, float layer_eta);
   void set_up_glass();
 

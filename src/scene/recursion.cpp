@@ -106,8 +106,8 @@ Color3f Recursion::light_of_shapes(const ShadingPoint& point) {
 // --- layers, metal, glass --------------------------------------------------------------------------------
 
 struct Recursion::Surface {
-  const Material& own;       // tells media apart
-  const Material& material;  // with its textures' values
+  const Material& own;             // tells media apart
+  const MaterialValues& material;  // with its textures' values
   ShadingPoint point;
   Vector3f out;          // unit length, back along the ray
   bool is_outside;       // whether the ray came from where the normal points
@@ -128,11 +128,11 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
   const Material& own = scene_.material_of(hit);
   if (own.is_area_light && !own.is_visible && sight.is_camera) return look_behind(sight, hit);
   SurfacePoint point = scene_.surface_at(sight.ray, hit);
-  std::optional<Material> textured;
+  std::optional<MaterialValues> textured;
   if (own.textures != nullptr || (scene_.has_vertex_colors() && own.takes_vertex_colors)) {
     textured = scene_.textured(sight.ray, hit, sight.cone.footprint_at(hit.t), point);
   }
-  const Material& material = textured ? *textured : own;
+  const MaterialValues& material = textured ? *textured : static_cast<const MaterialValues&>(own);
 
   const float length = glm::length(sight.ray.direction);
   const bool is_outside = glm::dot(point.normal, sight.ray.direction) < 0;
@@ -214,7 +214,7 @@ Color3f Recursion::lit_by_lights(const Surface& surface, const Bsdf& bsdf) {
 }
 
 Recursion::Shares Recursion::shares_of(const Surface& surface) const {
-  const Material& m = surface.material;
+  const MaterialValues& m = surface.material;
   const float cosine = std::min(1.0f, std::abs(glm::dot(surface.out, surface.point.shading_normal)));
   const float shininess = mirror_share(m), rest = 1 - shininess;
   const bool is_in_glass = has_inside(surface.own) && !surface.is_outside;

@@ -64,7 +64,9 @@ inline Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hi
   return material.color * scene.detail_at(ray, hit).color;
 }
 
-inline float mirror_share(const Material& material) { return glm::clamp(material.shininess, 0.0f, 1.0f); }
+inline float mirror_share(const MaterialValues& material) {
+  return glm::clamp(material.shininess, 0.0f, 1.0f);
+}
 
 /// What a ray sees that hits nothing, in the 0..255 units of the buffers.
 inline Color3f color_beyond(const SceneDescription& scene, const Ray3f& ray, bool is_camera) {

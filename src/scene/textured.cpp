@@ -75,15 +75,15 @@ TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const 
 
 }  // namespace
 
-Material Scene::textured(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
-                         SurfacePoint& surface) const {
+MaterialValues Scene::textured(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
+                               SurfacePoint& surface) const {
   const Material& material = material_of(hit);
   const SurfaceDetail detail = detail_at(ray, hit);
   const TexturePoint point = texture_point(ray, surface, detail, footprint);
   if (material.textures != nullptr) {
     surface.shading_normal = perturbed_normal(material, detail, point, surface.shading_normal);
   }
-  Material here = material_at(material, point);
+  MaterialValues here = material_at(material, point);
   if (here.takes_vertex_colors) here.color *= detail.color;
   return here;
 }

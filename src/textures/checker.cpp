@@ -31,13 +31,24 @@ class Checker final : public Pattern {
   }
 
  private:
+  // Each mean is a difference of integrals over a width; in double, as they are close to each other.
   float parity(const Vector3f& place, const Vector3f& width) const {
-    float product = 1;
+    double differences = 1, widths = 1;
     for (int axis = 0; axis < (map() == PatternMap::kUv ? 2 : 3); ++axis) {
-      product *= 2 * square_wave(place[axis] / 2, 0.5F, width[axis] / 2) - 1;
+      const auto x = static_cast<double>(place[axis]), across = static_cast<double>(width[axis]);
+      constexpr double kPoint = 1e-5;
+      if (across > kPoint) {
+        differences *= triangle_wave(x + 0.5 * across) - triangle_wave(x - 0.5 * across);
+        widths *= across;
+      } else if (std::floor(x) != 2 * std::floor(0.5 * x)) {
+        differences = -differences;
+      }
     }
-    return product;
+    return static_cast<float>(differences / widths);
   }
+
+  // The integral from 0 of the wave that is 1 in the first cell and -1 in the second.
+  static double triangle_wave(double x) { return 1 - std::abs(1 - (x - 2 * std::floor(0.5 * x))); }
 };
 
 }  // namespace

@@ -79,7 +79,7 @@ struct ExpressionProgram {
   std::vector<ExpressionFunction> functions;
   std::uint16_t places = kFirstConstant;  ///< how many there are
   std::uint16_t result = 0;
-  bool is_vector = false;     ///< the result; a number is grey
+  bool is_vector = false;  ///< the result; a number is grey
 
   /// The result at a point, a number in x. What is not finite is 0.
   Vector3d run(const TexturePoint& point) const;

@@ -22,8 +22,8 @@ void look_up(const TexturePointer& texture, const TexturePoint& point, float low
 
 }  // namespace
 
-Material material_at(const Material& material, const TexturePoint& point) {
-  Material result = material;
+MaterialValues material_at(const Material& material, const TexturePoint& point) {
+  MaterialValues result = material;
   if (!material.textures) return result;
   const MaterialTextures& textures = *material.textures;
   constexpr float kBrightest = 1e30f;  // beyond it products of colours are no numbers any more
@@ -38,7 +38,6 @@ Material material_at(const Material& material, const TexturePoint& point) {
   look_up(textures.coat_roughness, point, 0, result.coat_roughness);
   look_up(textures.anisotropy, point, -1, result.anisotropy);
   look_up(textures.alpha, point, 0, result.alpha);
-  result.textures.reset();
   return result;
 }
 

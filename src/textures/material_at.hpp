@@ -7,9 +7,8 @@
 
 namespace raytracer {
 
-/// The material with what its textures say there in place of its values, in their ranges, and without
-/// textures. The one without textures is returned as it is.
-Material material_at(const Material& material, const TexturePoint& point);
+/// The material's values, those of its textures there in place of its own, in their ranges.
+MaterialValues material_at(const Material& material, const TexturePoint& point);
 
 /// How much of the surface is there, 0..1: alpha alone, for rays that ask only for that.
 float alpha_at(const Material& material, const TexturePoint& point);
