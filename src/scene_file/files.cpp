@@ -16,6 +16,7 @@
 #include "raytracer/error.hpp"
 #include "scene_file/json_scene.hpp"
 #include "scene_file/parser.hpp"
+#include "scene_file/picture_names.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -104,7 +105,21 @@ const SyntaxTree* Files::add(std::string name, std::string path, std::string tex
   file.tree =
       json ? parse_json_scene(*file.source, names_, diagnostics) : parse(*file.source, names_, diagnostics);
   files_.push_back(std::move(file));
-  return files_.back().tree.get();
+  const SyntaxTree* tree = files_.back().tree.get();
+  read_pictures_ahead(*tree);
+  return tree;
+}
+
+// On all threads, where there are several. What is wrong with one is told where the scene asks for it.
+void Files::read_pictures_ahead(const SyntaxTree& tree) {
+  if (tree.source->path().empty()) return;
+  std::vector<std::string> paths;
+  Diagnostics unheard;
+  for (const std::string& name : quoted_names(tree, names_)) {
+    std::string path = find(name, {tree.source, {}}, {}, unheard);
+    if (!path.empty()) paths.push_back(std::move(path));
+  }
+  if (paths.size() > 1) pictures_.prefetch(paths);
 }
 
 const SyntaxTree* Files::add_main(std::string name, std::string path, std::string text,

@@ -62,6 +62,7 @@ class Files {
   };
 
   bool is_allowed(const std::string& canonical_path) const;
+  void read_pictures_ahead(const SyntaxTree& tree);
   const SyntaxTree* add(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
 
   std::vector<std::string> allowed_folders_;  ///< canonical; the main scene's first
