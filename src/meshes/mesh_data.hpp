@@ -27,21 +27,31 @@ struct MeshData {
   std::vector<Range> ranges;
   /// As an MTL file says it, colours linear; what it does not say keeps these values.
   struct NamedMaterial {
+    enum class Map : std::uint8_t {
+      kColor,      ///< map_Kd
+      kEmission,   ///< map_Ke
+      kRoughness,  ///< map_Pr
+      kMetallic,   ///< map_Pm
+      kAlpha,      ///< map_d
+      kNormal,     ///< norm
+      kBump,       ///< map_bump, bump: heights, but many programs write normals there
+    };
+    static constexpr std::size_t kMaps = 7;
+
     std::string name;
-    Color3f color{0.8f};     ///< Kd
-    Color3f emission{0};     ///< Ke
-    Color3f specular{0};     ///< Ks
-    float exponent = 0;      ///< Ns
-    float alpha = 1;         ///< d, or 1 - Tr
-    float ior = 1.5f;        ///< Ni
-    float roughness = -1;    ///< Pr; below 0: not said
-    float metallic = 0;      ///< Pm
-    int illumination = -1;   ///< illum; below 0: not said
-    std::string color_map;   ///< map_Kd as written, relative to the MTL file's folder; may be empty
-    std::string alpha_map;   ///< map_d
-    std::string bump_map;    ///< map_bump, bump
-    std::string normal_map;  ///< norm
-    std::string folder;      ///< of the MTL file
+    Color3f color{0.8f};                  ///< Kd
+    Color3f emission{0};                  ///< Ke
+    Color3f specular{0};                  ///< Ks
+    float exponent = 0;                   ///< Ns
+    float alpha = 1;                      ///< d, or 1 - Tr
+    float ior = 1.5f;                     ///< Ni
+    float roughness = -1;                 ///< Pr; below 0: not said
+    float metallic = 0;                   ///< Pm
+    int illumination = -1;                ///< illum; below 0: not said
+    std::array<std::string, kMaps> maps;  ///< as written, relative to the MTL file's folder; empty: none
+    std::string folder;                   ///< of the MTL file
+
+    const std::string& map(Map which) const { return maps[static_cast<std::size_t>(which)]; }
   };
   std::vector<NamedMaterial> materials;
 

@@ -86,9 +86,9 @@ template <Color3f Material::*kField>
 void color(Cursor& c, Material& material) {
   read_color(c, material.*kField);
 }
-template <std::string Material::*kField>
+template <Material::Map kMap>
 void map(Cursor& c, Material& material) {
-  material.*kField = read_map(c);
+  material.maps[static_cast<std::size_t>(kMap)] = read_map(c);
 }
 void dissolve(Cursor& c, Material& material) {
   skip_map_options(c);
@@ -116,13 +116,16 @@ const std::map<std::string_view, Read>& statements() {
       {"d", dissolve},
       {"Tr", transparency},
       {"illum", illumination},
-      {"map_Kd", map<&Material::color_map>},
-      {"map_d", map<&Material::alpha_map>},
-      {"map_bump", map<&Material::bump_map>},
-      {"map_Bump", map<&Material::bump_map>},
-      {"bump", map<&Material::bump_map>},
-      {"norm", map<&Material::normal_map>},
-      {"map_Kn", map<&Material::normal_map>},
+      {"map_Kd", map<Material::Map::kColor>},
+      {"map_Ke", map<Material::Map::kEmission>},
+      {"map_Pr", map<Material::Map::kRoughness>},
+      {"map_Pm", map<Material::Map::kMetallic>},
+      {"map_d", map<Material::Map::kAlpha>},
+      {"norm", map<Material::Map::kNormal>},
+      {"map_Kn", map<Material::Map::kNormal>},
+      {"bump", map<Material::Map::kBump>},
+      {"map_bump", map<Material::Map::kBump>},
+      {"map_Bump", map<Material::Map::kBump>},
   };
   return kStatements;
 }

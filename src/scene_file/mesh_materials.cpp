@@ -15,6 +15,17 @@ bool is_black(const Color3f& color) { return color == Color3f(0); }
 
 }  // namespace
 
+std::span<const MtlMap> mtl_maps() {
+  using Map = MeshData::NamedMaterial::Map;
+  static constexpr MtlMap kMaps[] = {
+      {Map::kColor, &MaterialTextures::color, true},   {Map::kEmission, &MaterialTextures::emission, true},
+      {Map::kRoughness, &MaterialTextures::roughness}, {Map::kMetallic, &MaterialTextures::metallic},
+      {Map::kAlpha, &MaterialTextures::alpha},         {Map::kNormal, &MaterialTextures::normal_map},
+      {Map::kBump, &MaterialTextures::normal_map},
+  };
+  return kMaps;
+}
+
 Material material_from_mtl(const MeshData::NamedMaterial& said) {
   Material material;
   material.color = said.color;
@@ -23,7 +34,9 @@ Material material_from_mtl(const MeshData::NamedMaterial& said) {
   material.metallic = said.metallic;
   material.ior = said.ior > 1 ? said.ior : 1.5f;
   // Without a highlight the surface is a plain Lambert one.
-  material.has_layer = said.roughness >= 0 || said.metallic > 0 || !is_black(said.specular);
+  const bool has_maps = !said.map(MeshData::NamedMaterial::Map::kRoughness).empty() ||
+                        !said.map(MeshData::NamedMaterial::Map::kMetallic).empty();
+  material.has_layer = said.roughness >= 0 || said.metallic > 0 || has_maps || !is_black(said.specular);
   if (said.roughness >= 0) {
     material.roughness = said.roughness;
   } else if (material.has_layer) {

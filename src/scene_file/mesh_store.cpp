@@ -42,8 +42,7 @@ SceneHash hash_of(const MeshData& mesh) {
     }
     for (const float x : {m.exponent, m.alpha, m.ior, m.roughness, m.metallic})
       hasher.add(static_cast<double>(x));
-    for (const std::string& map : {m.color_map, m.alpha_map, m.bump_map, m.normal_map})
-      hasher.add(std::string_view(map));
+    for (const std::string& map : m.maps) hasher.add(std::string_view(map));
   }
   return hasher.value();
 }
@@ -106,11 +105,7 @@ void MeshStore::load(MeshFile& mesh, const Place& place) {
     mesh.pictures.clear();
     for (const MeshData::NamedMaterial& said : data->materials) {
       Material material = material_from_mtl(said);
-      if (TexturePointer picture = color_map(said, mesh, place)) {
-        auto textures = std::make_shared<MaterialTextures>();
-        textures->color = std::move(picture);
-        material.textures = std::move(textures);
-      }
+      material.textures = textures_of(said, mesh, place);
       mesh.materials.push_back(std::move(material));
     }
     mesh.data = std::move(data);
@@ -121,22 +116,45 @@ void MeshStore::load(MeshFile& mesh, const Place& place) {
   }
 }
 
-// The picture that stands for a material's colour; null where it names none, or it can't be shown, which is
-// then told.
-TexturePointer MeshStore::color_map(const MeshData::NamedMaterial& said, MeshFile& mesh, const Place& place) {
-  if (said.color_map.empty()) return nullptr;
+// The pictures of a material; null where it has none.
+std::shared_ptr<const MaterialTextures> MeshStore::textures_of(const MeshData::NamedMaterial& said,
+                                                               MeshFile& mesh, const Place& place) {
+  auto textures = std::make_shared<MaterialTextures>();
+  bool has_any = false;
+  for (const MtlMap& row : mtl_maps()) {
+    TexturePointer& texture = (*textures).*row.texture;
+    if (texture == nullptr && !said.map(row.map).empty()) texture = texture_of(said, row, mesh, place);
+    has_any = has_any || texture != nullptr;
+  }
+  return has_any ? std::move(textures) : nullptr;
+}
+
+// Null where it can't be shown, which is then told.
+TexturePointer MeshStore::texture_of(const MeshData::NamedMaterial& said, const MtlMap& row, MeshFile& mesh,
+                                     const Place& place) {
+  const std::string& name = said.map(row.map);
+  const auto leave_out = [&](std::string_view reason) {
+    diagnostics_.warning(place, fmt::format("'{}': the picture '{}' {}", mesh.name, name, reason));
+    return nullptr;
+  };
   try {
-    const std::string path = (std::filesystem::path(said.folder) / said.color_map).string();
+    const std::string path = (std::filesystem::path(said.folder) / name).string();
     files_.require_allowed(path);
-    const TexelUse use{mesh.options.linear_colors ? TextureMeaning::kLight : TextureMeaning::kDisplay};
+    const std::shared_ptr<const Picture> picture = files_.pictures().picture(path);
+    if (row.map == MeshData::NamedMaterial::Map::kBump && picture->channels < 3) {
+      return leave_out("is left out: MTL does not say how high its bumps are; a material's 'bump' does");
+    }
+    const TextureMeaning color =
+        mesh.options.linear_colors ? TextureMeaning::kLight : TextureMeaning::kDisplay;
+    TexelUse use{row.is_color ? color : TextureMeaning::kNumber};
+    const bool is_alpha = row.map == MeshData::NamedMaterial::Map::kAlpha;
+    if (is_alpha) use.channel = picture->has_alpha() ? TextureChannel::kAlpha : TextureChannel::kMean;
     auto pyramid = files_.pictures().pyramid(path, use);
     files_.note_read(path);
     mesh.pictures.push_back(path);
     return make_image_texture(std::move(pyramid), TexturePlacement{});
   } catch (const Error& error) {
-    diagnostics_.warning(place, fmt::format("'{}': the picture '{}' can't be shown: {}", mesh.name,
-                                            said.color_map, error.what()));
-    return nullptr;
+    return leave_out(fmt::format("can't be shown: {}", error.what()));
   }
 }
 

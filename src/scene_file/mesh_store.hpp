@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -21,6 +22,15 @@ namespace raytracer::scene_file {
 
 class Diagnostics;
 class Files;
+
+/// What a picture that an MTL file names stands for.
+struct MtlMap {
+  MeshData::NamedMaterial::Map map;
+  TexturePointer MaterialTextures::*texture;
+  bool is_color = false;
+};
+/// One row for each. Where two stand for the same the first counts that is there.
+std::span<const MtlMap> mtl_maps();
 
 /// A mesh in a file, with the options that it is taken with.
 struct MeshFile {
@@ -68,7 +78,10 @@ class MeshStore {
 
  private:
   void load(MeshFile& mesh, const Place& place);
-  TexturePointer color_map(const MeshData::NamedMaterial& said, MeshFile& mesh, const Place& place);
+  std::shared_ptr<const MaterialTextures> textures_of(const MeshData::NamedMaterial& said, MeshFile& mesh,
+                                                      const Place& place);
+  TexturePointer texture_of(const MeshData::NamedMaterial& said, const MtlMap& row, MeshFile& mesh,
+                            const Place& place);
   bool need_data(MeshFile& mesh, const Place& place);
   const std::vector<std::uint32_t>& materials_of(const MeshFile& mesh, std::vector<Material>& materials);
   static std::shared_ptr<const SharedShapes> share(const MeshFile& mesh, bool takes_all);

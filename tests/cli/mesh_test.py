@@ -129,6 +129,24 @@ class Meshes(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertIn("the picture 'green.png' can't be shown", done.stderr.decode())
 
+    def test_an_mtl_file_cuts_out_and_bends(self):
+        (self.folder / "map.obj").write_text(obj("mtllib map.mtl\nusemtl m\n"))
+        mtl = self.folder / "map.mtl"
+
+        def with_map(word, *color):
+            (self.folder / "map.png").write_bytes(png_of_one_color(*color))
+            mtl.write_text(f"newmtl m\nKd 0.9 0.1 0.1\n{word} map.png\n")
+            return self.picture(HEAD + 'mesh { file "map.obj" }')
+
+        mtl.write_text("newmtl m\nKd 0.9 0.1 0.1\n")
+        plain = self.picture(HEAD + 'mesh { file "map.obj" }')
+        empty = self.picture(HEAD)
+        self.assertNotEqual(plain, empty)
+        self.assertEqual(with_map("map_d", 255, 255, 255), plain)
+        self.assertEqual(with_map("map_d", 0, 0, 0), empty)
+        glowing = self.picture(HEAD + "mesh { " + inline() + "  material { color 0.9 0.1 0.1  emission 0 0 1 } }")
+        self.assertEqual(with_map("map_Ke", 0, 0, 255), glowing)
+
     def test_json_says_the_same(self):
         (self.folder / "parts" / "sub.ply").write_bytes(ply())
         (self.folder / "parts" / "parts.txt").write_text(

@@ -272,9 +272,11 @@ TEST_CASE("OBJ: a material file that may not be read, is a folder, or one of too
 }
 
 TEST_CASE("MTL: every word that we know") {
+  using Map = MeshData::NamedMaterial::Map;
   const MeshData::NamedMaterial a = material_of(
       "Ka 1 1 1\n Kd 0.1 0.2 0.3\nKs 0.4\nKe 5 6 7\nNs 96.5\nNi 1.45\nd 0.75\nillum 2\nPr 0.25\nPm 1\n"
-      "map_Kd wood.png\nmap_d -imfchan m leaf.png\nmap_bump -bm 0.3 bump map.png\nnorm textures\\n.png\n");
+      "map_Kd wood.png\nmap_d -imfchan m leaf.png\nmap_bump -bm 0.3 bump map.png\nnorm textures\\n.png\n"
+      "map_Ke glow.png\nmap_Pr rough.png\nmap_Pm metal.png\n");
   REQUIRE(a.name == "a");
   REQUIRE(a.folder == "folder");
   REQUIRE(a.color == Color3f(0.1f, 0.2f, 0.3f));
@@ -286,10 +288,13 @@ TEST_CASE("MTL: every word that we know") {
   REQUIRE(a.illumination == 2);
   REQUIRE(a.roughness == 0.25f);
   REQUIRE(a.metallic == 1);
-  REQUIRE(a.color_map == "wood.png");
-  REQUIRE(a.alpha_map == "leaf.png");
-  REQUIRE(a.bump_map == "bump map.png");
-  REQUIRE(a.normal_map == "textures/n.png");
+  REQUIRE(a.map(Map::kColor) == "wood.png");
+  REQUIRE(a.map(Map::kAlpha) == "leaf.png");
+  REQUIRE(a.map(Map::kBump) == "bump map.png");
+  REQUIRE(a.map(Map::kNormal) == "textures/n.png");
+  REQUIRE(a.map(Map::kEmission) == "glow.png");
+  REQUIRE(a.map(Map::kRoughness) == "rough.png");
+  REQUIRE(a.map(Map::kMetallic) == "metal.png");
 }
 
 TEST_CASE("MTL: transparency is what opacity is not, unless both are said") {
@@ -300,12 +305,13 @@ TEST_CASE("MTL: transparency is what opacity is not, unless both are said") {
 }
 
 TEST_CASE("MTL: options of maps are skipped, whatever the number of their values") {
-  REQUIRE(material_of("map_Kd -s 1 1 1 -o 0.5 a.png\n").color_map == "a.png");
-  REQUIRE(material_of("map_Kd -s 2 2 -clamp on -texres 64 64.png\n").color_map == "64.png");
+  REQUIRE(material_of("map_Kd -s 1 1 1 -o 0.5 a.png\n").map(MeshData::NamedMaterial::Map::kColor) == "a.png");
   REQUIRE(
-      material_of("map_Kd -colorspace sRGB -mm 0 1 -blendu off -type sphere my file.jpg \r\n").color_map ==
-      "my file.jpg");
-  REQUIRE(material_of("bump -bm\n").bump_map.empty());
+      material_of("map_Kd -s 2 2 -clamp on -texres 64 64.png\n").map(MeshData::NamedMaterial::Map::kColor) ==
+      "64.png");
+  REQUIRE(material_of("map_Kd -colorspace sRGB -mm 0 1 -blendu off -type sphere my file.jpg \r\n")
+              .map(MeshData::NamedMaterial::Map::kColor) == "my file.jpg");
+  REQUIRE(material_of("bump -bm\n").map(MeshData::NamedMaterial::Map::kBump).empty());
 }
 
 TEST_CASE("MTL: what makes no sense leaves things as they are") {
