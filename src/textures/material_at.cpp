@@ -16,8 +16,14 @@ Color3f limited(const Color3f& value, float lowest, float highest) {
           limited(value.z, lowest, highest)};
 }
 
+// What a colour says where a number is wanted: its channels' mean.
+float number_of(const Color3f& color) {
+  const bool is_grey = color.x == color.y && color.y == color.z;
+  return is_grey ? color.x : (color.x + color.y + color.z) / 3;
+}
+
 void look_up(const TexturePointer& texture, const TexturePoint& point, float lowest, float& value) {
-  if (texture) value = limited(texture->at(point).x, lowest, 1);
+  if (texture) value = limited(number_of(texture->at(point)), lowest, 1);
 }
 
 }  // namespace
@@ -96,7 +102,7 @@ float slope(const Texture& height, const TexturePoint& point, const Vector2f& uv
     TexturePoint moved = point;
     moved.uv += steps * size * uv_step;
     moved.position += steps * size * position_step;
-    return height.at(moved).x;
+    return number_of(height.at(moved));
   };
   const float difference = (at(0.5f) - at(-0.5f)) / size;
   return std::isfinite(difference) ? difference : 0.0f;
