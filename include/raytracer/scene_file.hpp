@@ -92,7 +92,10 @@ struct SceneMoment {
 struct LoadedScene {
   std::vector<Diagnostic> diagnostics;
   std::vector<std::string> files_read;  ///< as canonical paths
-  RenderSettings settings;              ///< at the time 0
+  /// What it may read besides at other times, whether it is there or not: every file that its texts name in
+  /// quotes, evaluated or not, and those that these name. Empty unless ok().
+  std::function<std::vector<std::string>()> files_named;
+  RenderSettings settings;  ///< at the time 0
   SceneAt scene_at;  ///< empty unless ok(); throws Error (kScene) where the scene is wrong at that time alone
   /// As scene_at; a scene_at for the same time right afterwards does not evaluate it once more.
   std::function<SceneMoment(double time)> moment_at;

@@ -2,6 +2,7 @@
 #include "cli/commands.hpp"
 #include "cli/output.hpp"
 #include "cli/target.hpp"
+#include "cli/kept_files.hpp"
 #include "raytracer/error.hpp"
 #include "raytracer/image.hpp"
 
@@ -14,7 +15,7 @@ int run_json(const Options& options) {
   if (options.output.empty() || options.output == "-") {
     say(text);
   } else {
-    check_output(options.output, scene.files_read);
+    check_output(options.output, KeptFiles::of(scene));
     write_file(options.output, {text.begin(), text.end()});
   }
   return 0;

@@ -87,6 +87,7 @@ class Renderer {
 void write_statistics(const Options& options, const RunStatistics& run) {
   if (options.statistics.empty()) return;
   const std::string text = to_json(run);
+  if (options.statistics == "-") return say(text);
   write_file(options.statistics, {text.begin(), text.end()});
 }
 
@@ -104,8 +105,10 @@ int run_render(const Options& options) {
   const LoadedScene scene = load_and_report(options);
   if (!scene.ok()) return static_cast<int>(ErrorKind::kScene);
   const std::vector<Shot> shots = shots_of(target, options, scene);
-  if (!options.statistics.empty()) check_output(options.statistics, scene.files_read);
-  const std::unique_ptr<FrameSink> sink = open_target(target, shots, scene, run, watch);
+  const KeptFiles kept = KeptFiles::of(scene);
+  check_target(target, shots, kept);
+  check_statistics(options.statistics, target, shots, kept);
+  const std::unique_ptr<FrameSink> sink = open_target(target, shots.size(), scene.animation.fps, run, watch);
   run.shapes = scene.shapes;
   run.picture_bytes = scene.picture_bytes;
   run.load = watch.lap();

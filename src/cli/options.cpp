@@ -124,7 +124,7 @@ constexpr OptionRow kOptions[] = {
      [](Options& o, const std::string& v) { o.threads = whole_number<int>("--threads", v, 1, 1024); }},
     {"--quiet", "-q", "", kRender, false, "no progress bar, no summary",
      [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--stats", "", "FILE", kRender, false, "writes times and counts as JSON",
+    {"--stats", "", "FILE", kRender, false, "writes times and counts as JSON; - standard output",
      [](Options& o, const std::string& v) { o.statistics = v; }},
     {"--format", "", "FORMAT", kCheck, false, "messages as text, or as json on standard output", set_format},
     {"--check", "", "", kFmt, false, "changes nothing; exit code 1 where it would",

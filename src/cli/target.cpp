@@ -78,34 +78,34 @@ std::vector<Shot> shots_of(const Target& target, const Options& options, const L
   return shots;
 }
 
-void check_output(const std::string& path, const std::vector<std::string>& files_read) {
-  if (path == "-") {
-    if (::isatty(STDOUT_FILENO) != 0) {
-      usage_error("standard output is a terminal, and a picture is no text: say -o out.png");
-    }
-    return;
-  }
-  check_writable(path);
-  for (const std::string& read : files_read) {
-    std::error_code none;
-    if (fs::equivalent(path, read, none)) {
-      throw Error(ErrorKind::kFile,
-                  fmt::format("'{}' is a file that the scene reads: it is not overwritten", path));
-    }
-  }
+std::vector<std::string> files_of(const Target& target, const std::vector<Shot>& shots) {
+  if (!target.is_numbered) return {target.path};
+  std::vector<std::string> files;
+  for (const Shot& shot : shots) files.push_back(with_frame_number(target.path, shot.frame));
+  return files;
 }
 
-std::unique_ptr<FrameSink> open_target(const Target& target, const std::vector<Shot>& shots,
-                                       const LoadedScene& scene, RunStatistics& run, Stopwatch& watch) {
-  if (target.is_numbered) {
-    for (const Shot& shot : shots) check_output(with_frame_number(target.path, shot.frame), scene.files_read);
-  } else {
-    check_output(target.path, scene.files_read);
+void check_target(const Target& target, const std::vector<Shot>& shots, const KeptFiles& kept) {
+  if (target.path == "-" && ::isatty(STDOUT_FILENO) != 0) {
+    usage_error("standard output is a terminal, and a picture is no text: say -o out.png");
   }
-  const double fps = scene.animation.fps;
+  for (const std::string& file : files_of(target, shots)) check_output(file, kept);
+}
+
+void check_statistics(const std::string& path, const Target& target, const std::vector<Shot>& shots,
+                      KeptFiles kept) {
+  if (path.empty()) return;
+  if (path == "-" && target.path == "-") {
+    usage_error("-o and --stats can't both go to standard output: say --stats times.json");
+  }
+  for (const std::string& file : files_of(target, shots)) kept.add(file, "where the picture goes");
+  check_output(path, kept);
+}
+
+std::unique_ptr<FrameSink> open_target(const Target& target, std::size_t shots, double fps,
+                                       RunStatistics& run, Stopwatch& watch) {
   if (target.is_film) return std::make_unique<Movie>(target.path, fps, run, watch);
-  if (!target.is_numbered && shots.size() > 1)
-    return std::make_unique<MovingPng>(target.path, fps, run, watch);
+  if (!target.is_numbered && shots > 1) return std::make_unique<MovingPng>(target.path, fps, run, watch);
   return std::make_unique<PictureFiles>(target.path, run, watch);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/frame_sink.hpp"
+#include "cli/kept_files.hpp"
 #include "cli/options.hpp"
 
 namespace raytracer::cli {
@@ -30,11 +31,14 @@ Target target_of(const Options& options);
 /// them, or the target can't hold them.
 std::vector<Shot> shots_of(const Target& target, const Options& options, const LoadedScene& scene);
 
-/// Everything that can be known to go wrong with a file's place. Throws Error.
-void check_output(const std::string& path, const std::vector<std::string>& files_read);
+/// Everything that can be known to go wrong with the places of the pictures. Throws Error.
+void check_target(const Target& target, const std::vector<Shot>& shots, const KeptFiles& kept);
+/// Likewise of --stats, which would be the last to write.
+void check_statistics(const std::string& path, const Target& target, const std::vector<Shot>& shots,
+                      KeptFiles kept);
 
-/// Opens the target, after checking all of it. Throws Error.
-std::unique_ptr<FrameSink> open_target(const Target& target, const std::vector<Shot>& shots,
-                                       const LoadedScene& scene, RunStatistics& run, Stopwatch& watch);
+/// Opens the target for so many pictures. Throws Error.
+std::unique_ptr<FrameSink> open_target(const Target& target, std::size_t shots, double fps,
+                                       RunStatistics& run, Stopwatch& watch);
 
 }  // namespace raytracer::cli

@@ -150,4 +150,24 @@ void add_materials(const std::vector<std::string_view>& libraries, const std::ve
                                      unknown.size() == 1 ? "looks" : "look"));
 }
 
+std::vector<std::string> files_named_in_obj(std::string_view text, const std::string& folder) {
+  MeshData mesh;
+  const MayRead any;
+  Libraries files(folder, any, mesh);
+  for (Cursor c(text); find_statement(c);) {
+    if (read_word(c) == "mtllib") {
+      files.read(read_rest(c));
+    } else {
+      skip_statement(c);
+    }
+  }
+  std::vector<std::string> named = mesh.files_read;
+  for (const MeshData::NamedMaterial& material : mesh.materials) {
+    for (const std::string& map : material.maps) {
+      if (!map.empty()) named.push_back((fs::path(material.folder) / map).string());
+    }
+  }
+  return named;
+}
+
 }  // namespace raytracer::meshes

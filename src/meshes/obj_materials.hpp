@@ -21,4 +21,7 @@ struct MaterialUse {
 void add_materials(const std::vector<std::string_view>& libraries, const std::vector<MaterialUse>& uses,
                    const std::string& folder, const MayRead& may_read, MeshData& mesh);
 
+/// The material files that an OBJ file names and the pictures that these name, whether they are there or not.
+std::vector<std::string> files_named_in_obj(std::string_view text, const std::string& folder);
+
 }  // namespace raytracer::meshes

@@ -5,6 +5,7 @@
 
 #include "core/mapped_file.hpp"
 #include "meshes/obj.hpp"
+#include "meshes/obj_materials.hpp"
 #include "meshes/ply.hpp"
 #include "meshes/stl.hpp"
 #include "raytracer/error.hpp"
@@ -33,6 +34,15 @@ MeshData read_mesh(const std::string& path, const MayRead& may_read) {
   if (is(".ply", bytes.substr(0, 3) == "ply")) return meshes::read_ply(bytes);
   if (is(".stl", meshes::looks_like_stl(bytes))) return meshes::read_stl(bytes);
   return meshes::read_obj(bytes, std::filesystem::path(path).parent_path().string(), may_read);
+}
+
+std::vector<std::string> files_named_by_mesh(const std::string& path) {
+  try {
+    const MappedFile file(path);
+    return meshes::files_named_in_obj(file.bytes(), std::filesystem::path(path).parent_path().string());
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 }  // namespace raytracer

@@ -17,4 +17,8 @@ using MayRead = std::function<void(const std::string& path)>;
 /// told in a remark.
 MeshData read_mesh(const std::string& path, const MayRead& may_read = {});
 
+/// The material files that an OBJ file names and the pictures that these name, whether they are there or not;
+/// nothing where the file is another one or can't be read.
+std::vector<std::string> files_named_by_mesh(const std::string& path);
+
 }  // namespace raytracer

@@ -16,7 +16,7 @@
 #include "raytracer/error.hpp"
 #include "scene_file/json_scene.hpp"
 #include "scene_file/parser.hpp"
-#include "scene_file/picture_names.hpp"
+#include "scene_file/quoted_names.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -163,6 +163,11 @@ void Files::require_allowed(const std::string& path) const {
   throw Error(ErrorKind::kScene, fmt::format("'{}' lies outside of the scene's folder", path));
 }
 
+std::string Files::path_from(const Source& source, const std::string& file) const {
+  std::string path = canonical((fs::path(source.path()).parent_path() / file).string());
+  return is_allowed(path) ? path : std::string();
+}
+
 std::string Files::seen_from_main(const std::string& file, const Source& source) const {
   const fs::path path(file);
   if (path.is_absolute() || source.path().empty()) return file;
@@ -212,6 +217,12 @@ const SyntaxTree* Files::tree_of(const Source& source) const {
     if (file.source.get() == &source) return file.tree.get();
   }
   return nullptr;
+}
+
+std::vector<const SyntaxTree*> Files::trees() const {
+  std::vector<const SyntaxTree*> trees;
+  for (const File& file : files_) trees.push_back(file.tree.get());
+  return trees;
 }
 
 bool Files::is_mentioned_twice(std::string_view word) const {

@@ -33,6 +33,9 @@ class Files {
   /// Throws Error (kScene) where a file that another file names (a mesh its materials) is not the scene's to
   /// read.
   void require_allowed(const std::string& path) const;
+  /// Where a file that a source names would lie, as a canonical path, there or not; empty where it is not the
+  /// scene's to read.
+  std::string path_from(const Source& source, const std::string& file) const;
   /// The name of a file that a source says, as the main scene would say it.
   std::string seen_from_main(const std::string& file, const Source& source) const;
   /// A file that is no text of the scene has been read.
@@ -49,6 +52,11 @@ class Files {
 
   /// The tree of a source of this scene.
   const SyntaxTree* tree_of(const Source& source) const;
+
+  /// Of all sources of this scene.
+  std::vector<const SyntaxTree*> trees() const;
+  /// Whether the file of this canonical path is one of them.
+  bool has_text(const std::string& path) const { return by_path_.contains(path); }
 
   std::vector<std::string> read_paths() const;
   Names& names() { return names_; }

@@ -15,6 +15,7 @@
 #include "scene_file/files.hpp"
 #include "scene_file/finish.hpp"
 #include "scene_file/method.hpp"
+#include "scene_file/named_files.hpp"
 #include "scene_file/settings.hpp"
 
 namespace raytracer {
@@ -222,6 +223,11 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
     loaded.scene_at = [scenes](double time) { return scenes->at(time); };
     loaded.moment_at = [scenes](double time) { return scenes->moment(time); };
     loaded.json_at = [scenes](double time) { return scenes->json(time); };
+    loaded.files_named = [scene_text] {
+      std::vector<std::string> given;
+      for (const Setting& setting : scene_text->options.settings) given.push_back(setting.value);
+      return scene_file::files_named(*scene_text->files, given);
+    };
   }
   loaded.diagnostics = diagnostics.take();
   return loaded;

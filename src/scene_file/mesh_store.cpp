@@ -140,6 +140,7 @@ TexturePointer MeshStore::texture_of(const MeshData::NamedMaterial& said, const 
   try {
     const std::string path = (std::filesystem::path(said.folder) / name).string();
     files_.require_allowed(path);
+    files_.note_read(path);  // also where it turns out to be of no use
     const std::shared_ptr<const Picture> picture = files_.pictures().picture(path);
     if (row.map == MeshData::NamedMaterial::Map::kBump && picture->channels < 3) {
       return leave_out("is left out: MTL does not say how high its bumps are; a material's 'bump' does");
@@ -150,7 +151,6 @@ TexturePointer MeshStore::texture_of(const MeshData::NamedMaterial& said, const 
     const bool is_alpha = row.map == MeshData::NamedMaterial::Map::kAlpha;
     if (is_alpha) use.channel = picture->has_alpha() ? TextureChannel::kAlpha : TextureChannel::kMean;
     auto pyramid = files_.pictures().pyramid(path, use);
-    files_.note_read(path);
     mesh.pictures.push_back(path);
     return make_image_texture(std::move(pyramid), TexturePlacement{});
   } catch (const Error& error) {

@@ -1,4 +1,4 @@
-// Which pictures a text names.
+// Which files a text names.
 #pragma once
 
 #include <string>
@@ -12,5 +12,12 @@ namespace raytracer::scene_file {
 /// evaluating anything: whether it is a picture's name is for whoever looks at the file. Branches and
 /// definitions are left out, since they may never be used.
 std::vector<std::string> quoted_names(const SyntaxTree& tree, const Names& names);
+
+/// What a text may name at any time, each once: what stands in quotes anywhere in it.
+struct NamesInText {
+  std::vector<std::string> all;
+  std::vector<std::string> included;  ///< those among them that `include` may mean
+};
+NamesInText all_quoted_names(const SyntaxTree& tree, const Names& names);
 
 }  // namespace raytracer::scene_file
