@@ -100,8 +100,9 @@ struct LoadedScene {
   /// As scene_at; a scene_at for the same time right afterwards does not evaluate it once more.
   std::function<SceneMoment(double time)> moment_at;
   /// One moment as a scene in JSON, which makes the same picture. Throws Error (kScene) as scene_at does, and
-  /// where a camera's shutter stays open for more than a moment.
-  std::function<std::string(double time)> json_at;
+  /// where a camera's shutter stays open for more than a moment. Names of files are relative to `folder`, or
+  /// to the scene's own where it is empty.
+  std::function<std::string(double time, const std::string& folder)> json_at;
   Animation animation;
   bool depends_on_time = false;
   std::vector<Parameter> parameters;

@@ -180,7 +180,7 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
   if (SceneRecorder* recorder = builder_.recorder(); recorder && !is_parameter) {
     Argument told = *argument;
     if (row->type == PropertyType::kFile)
-      told.text = builder_.files_.seen_from_main(told.text, *around_.source);
+      told.text = builder_.files_.seen_from(recorder->folder(), told.text, *around_.source);
     recorder->add(*row, told);
   }
   if (is_placing(*row)) return apply_placing(*row, *argument, place(property.whole()));

@@ -284,14 +284,19 @@ void Builder::build_material(const KindRow& row, const BlockNode& block, std::st
   if (sound) material_uses_[index] = {place, false, context.depends_on_time(), id};
 }
 
+// A material in place; where it has a name, that is for the recorder alone.
 std::optional<std::uint32_t> Builder::build_inline_material(const BlockNode& block,
-                                                            const Surroundings& around) {
+                                                            const Surroundings& around,
+                                                            std::string_view name) {
   const KindRow* row = find_kind("material");
-  const SceneRecorder::Block recorded(recorder(), *row, {});
+  const SceneRecorder::Block recorded(recorder(), *row, name);
   BlockContext context(*this, *row, block, around, {});
   last_material_.reset();
   row->build(context);
   if (last_material_) material_uses_[*last_material_] = {{}, true, context.depends_on_time(), 0};
+  if (SceneRecorder* told = recorder(); told != nullptr && !name.empty()) {
+    told->name_material(last_material_.value_or(0));
+  }
   return last_material_;
 }
 
@@ -336,21 +341,30 @@ std::optional<std::uint32_t> Builder::find_material(std::string_view name, const
 }
 
 // One that every scene knows, built as if its text stood where it is named first. What writes the scene down
-// gets it in place each time: there it could be hidden by the scene's own names.
+// gets it once, in front of everything: shapes that share a material must go on sharing it, and the name that
+// it gets there is none of the scene's own.
 std::optional<std::uint32_t> Builder::find_library_material(std::string_view name) {
   const LibraryMaterial* row = scene_file::find_library_material(name);
   if (row == nullptr) return std::nullopt;
   LibraryText& text = library_[std::string(name)];
-  if (text.material && recorder() == nullptr) return text.material;
-  if (text.tree == nullptr) {
-    text.source = std::make_unique<Source>("<library>", "", fmt::format("material {{ {} }}", row->text));
-    text.tree = parse(*text.source, files_.names(), diagnostics_);
+  SceneRecorder* told = recorder();
+  if (!text.material || (told != nullptr && !text.is_told)) {
+    if (text.tree == nullptr) {
+      text.source = std::make_unique<Source>("<library>", "", fmt::format("material {{ {} }}", row->text));
+      text.tree = parse(*text.source, files_.names(), diagnostics_);
+    }
+    const Frame frame;
+    Surroundings around;
+    around.source = text.source.get();
+    around.frame = &frame;
+    const SceneRecorder::InFront in_front(told);
+    const auto& block = *std::get<const BlockNode*>(text.tree->items.front());
+    const auto built = build_inline_material(block, around, row->name);
+    if (built && !text.material) text.material = built;
+    text.is_told = told != nullptr;
+    text.told_as = built.value_or(0);
   }
-  const Frame frame;
-  Surroundings around;
-  around.source = text.source.get();
-  around.frame = &frame;
-  text.material = build_inline_material(*std::get<const BlockNode*>(text.tree->items.front()), around);
+  if (told != nullptr) told->use_material(text.told_as);
   return text.material;
 }
 

@@ -301,7 +301,8 @@ class Builder {
   const BuiltTexture* find_texture(std::string_view name, const Surroundings& around);
   std::optional<std::uint32_t> find_library_material(std::string_view name);
   const BlockNode* find_later_material(std::string_view name, const Place& place) const;
-  std::optional<std::uint32_t> build_inline_material(const BlockNode& block, const Surroundings& around);
+  std::optional<std::uint32_t> build_inline_material(const BlockNode& block, const Surroundings& around,
+                                                     std::string_view name = {});
 
   /// Takes the work; reports once and stops all evaluation when there was too much of it.
   bool spend(std::uint64_t steps, const Place& place);
@@ -345,6 +346,8 @@ class Builder {
     std::unique_ptr<Source> source;
     std::unique_ptr<SyntaxTree> tree;
     std::optional<std::uint32_t> material;
+    bool is_told = false;       // to the recorder
+    std::uint32_t told_as = 0;  // its number there
   };
   std::unordered_map<std::string, LibraryText> library_;
 };

@@ -168,12 +168,13 @@ std::string Files::path_from(const Source& source, const std::string& file) cons
   return is_allowed(path) ? path : std::string();
 }
 
-std::string Files::seen_from_main(const std::string& file, const Source& source) const {
+std::string Files::seen_from(const std::string& folder, const std::string& file, const Source& source) const {
   const fs::path path(file);
-  if (path.is_absolute() || source.path().empty()) return file;
-  const fs::path main_folder = fs::path(files_.front().source->path()).parent_path();
-  const fs::path folder = fs::path(source.path()).parent_path().lexically_relative(main_folder);
-  return folder.empty() || folder == "." ? file : (folder / path).lexically_normal().string();
+  if (path.is_absolute()) return file;
+  const std::string own = canonical(fs::path(source.path()).parent_path().string());
+  const fs::path there = folder.empty() ? fs::path(allowed_folders_.front()) : fs::path(canonical(folder));
+  const fs::path way = fs::path(own).lexically_relative(there);
+  return way.empty() || way == "." ? file : (way / path).lexically_normal().string();
 }
 
 void Files::note_read(const std::string& path) {

@@ -36,8 +36,9 @@ class Files {
   /// Where a file that a source names would lie, as a canonical path, there or not; empty where it is not the
   /// scene's to read.
   std::string path_from(const Source& source, const std::string& file) const;
-  /// The name of a file that a source says, as the main scene would say it.
-  std::string seen_from_main(const std::string& file, const Source& source) const;
+  /// The name of a file that a source says, as a text in this folder would say it; empty: as the main scene
+  /// would.
+  std::string seen_from(const std::string& folder, const std::string& file, const Source& source) const;
   /// A file that is no text of the scene has been read.
   void note_read(const std::string& path);
 

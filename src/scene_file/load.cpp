@@ -68,10 +68,10 @@ class ScenesOverTime {
     return moment;
   }
 
-  std::string json(double time) const {
+  std::string json(double time, const std::string& folder) const {
     Diagnostics diagnostics;
     Builder builder(*text_->files, text_->options.limits, moment_of(time), text_->kept, diagnostics);
-    scene_file::SceneRecorder recorder;
+    scene_file::SceneRecorder recorder(folder);
     builder.record_into(recorder);
     build(builder, time, diagnostics);  // the same text for any method
     for (const scene_file::CameraDraft& camera : builder.draft().cameras) {
@@ -222,7 +222,7 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
         std::make_shared<ScenesOverTime>(scene_text, std::move(draft.scene), loaded.depends_on_time);
     loaded.scene_at = [scenes](double time) { return scenes->at(time); };
     loaded.moment_at = [scenes](double time) { return scenes->moment(time); };
-    loaded.json_at = [scenes](double time) { return scenes->json(time); };
+    loaded.json_at = [scenes](double time, const std::string& folder) { return scenes->json(time, folder); };
     loaded.files_named = [scene_text] {
       std::vector<std::string> given;
       for (const Setting& setting : scene_text->options.settings) given.push_back(setting.value);

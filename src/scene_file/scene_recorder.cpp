@@ -91,6 +91,11 @@ void SceneRecorder::end_block() {
   }
 }
 
+void SceneRecorder::end_in_front() {
+  for (Node& node : open_.back().children) front_.push_back(std::move(node));
+  open_.pop_back();
+}
+
 void SceneRecorder::add(const PropertyRow& property, const Argument& argument) {
   const std::string text = fmt::format("{}: {}", json_quoted(property.name), value_text(property, argument));
   Node& node = open_.back();
@@ -199,6 +204,7 @@ void SceneRecorder::append(std::span<const Node> nodes, std::size_t level, bool&
 std::string SceneRecorder::text() const {
   std::string out = "{\"raytracer\": 1, \"blocks\": [";
   bool is_first = true;
+  append(front_, 1, is_first, out);
   append(open_.front().children, 1, is_first, out);
   return out + "\n]}\n";
 }

@@ -54,6 +54,26 @@ class SceneRecorder {
     SceneRecorder* recorder_;
   };
 
+  /// While one lives, blocks go in front of the whole scene, whatever is open.
+  class InFront {
+   public:
+    explicit InFront(SceneRecorder* recorder) : recorder_(recorder) {
+      if (recorder_ != nullptr) recorder_->open_.emplace_back();
+    }
+    ~InFront() {
+      if (recorder_ != nullptr) recorder_->end_in_front();
+    }
+    InFront(const InFront&) = delete;
+    InFront& operator=(const InFront&) = delete;
+
+   private:
+    SceneRecorder* recorder_;
+  };
+
+  /// Names of files are written as seen from this folder; empty: from the scene's own.
+  explicit SceneRecorder(std::string folder = {}) : folder_(std::move(folder)) {}
+  const std::string& folder() const { return folder_; }
+
   /// False inside of a body that has been written down; nothing may be told then.
   bool is_listening() const { return !muted_; }
   /// A property of the innermost block.
@@ -95,6 +115,7 @@ class SceneRecorder {
 
   void begin_block(const KindRow& kind, std::string_view name);
   void end_block();
+  void end_in_front();
   void begin_body(const void* definition, const std::vector<Value>& arguments);
   void end_body();
   const std::string& name_of(const void* definition, const std::vector<Value>& arguments);
@@ -103,6 +124,8 @@ class SceneRecorder {
   static std::string transforms_text(const Node& node);
   static void append(std::span<const Node> nodes, std::size_t level, bool& is_first, std::string& out);
 
+  std::string folder_;
+  std::vector<Node> front_;                                 // what stands in front of the scene
   std::vector<Node> open_{Node{}};                          // from the scene to the innermost block
   std::vector<std::shared_ptr<std::vector<Node>>> bodies_;  // where the open bodies go
   std::unordered_map<const void*, Definition> definitions_;

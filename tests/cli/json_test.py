@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import shutil
 import tempfile
 import unittest
@@ -129,6 +130,41 @@ class FromText(unittest.TestCase):
         (self.folder / "part" / "ball.txt").write_text("sphere { radius size }")
         blocks = self.check_text('let size = 1\ninclude "part/ball.txt"', options=("--set", "size=0.25"))
         self.assertEqual(blocks, [{"kind": "sphere", "radius": 0.25}])
+
+    def test_shapes_share_a_material_of_the_library(self):
+        """Two shapes of one material are one volume, of two materials they are not; the scene has its own names besides."""
+        text = """
+            image { size 40 24 }  render { method path  samples 4 }  camera { position 0 0 6 }  background { color 1 }
+            sphere { center -0.4 0 0  material water }
+            sphere { center 0.4 0 0  material water }
+            define d { material water { color 0.1 0.7 0.2 }  sphere { center 0 1.5 0  radius 0.5  material water } }
+            d { }"""
+        blocks = self.check_text(text)
+        materials = [block for block in blocks if block["kind"] == "material"]
+        self.assertEqual([(each["name"], each["ior"]) for each in materials], [("water", 1.333)])
+        self.assertEqual([block["material"] for block in blocks if block["kind"] == "sphere"], ["water", "water"])
+
+    def test_names_of_files_are_relative_to_the_file_that_names_them(self):
+        for folder in ("sub/part", "other"):
+            (self.folder / folder).mkdir(parents=True)
+        for name in ("a.png", "b.png"):
+            shutil.copy(ROOT / "tests/render/expected/first.png", self.folder / "sub" / "part" / name)
+        scene = self.folder / "sub" / "scene.txt"
+        scene.write_text('sphere { material { color image "part/a.png" } }\ninclude "part/b.txt"\n')
+        (self.folder / "sub" / "part" / "b.txt").write_text('sky image "b.png"\n')
+
+        def names(place, *arguments):
+            done = run("json", "sub/scene.txt", *arguments, cwd=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            text = (self.folder / place).read_text() if place else done.stdout.decode()
+            return sorted(re.findall(r'"file": "(.*?)"', text))
+        self.assertEqual(names(None), ["part/a.png", "part/b.png"])
+        self.assertEqual(names("sub/s.json", "-o", "sub/s.json"), ["part/a.png", "part/b.png"])
+        self.assertEqual(names("s.json", "-o", "s.json"), ["sub/part/a.png", "sub/part/b.png"])
+        self.assertEqual(names("other/s.json", "-o", "other/s.json"), ["../sub/part/a.png", "../sub/part/b.png"])
+        picture = run(scene, *SMALL).stdout
+        for place, options in (("sub/s.json", []), ("s.json", []), ("other/s.json", ["--allow-path", self.folder])):
+            self.assertEqual(run(self.folder / place, *options, *SMALL).stdout, picture, place)
 
     def test_an_open_shutter_is_refused(self):
         scene = self.folder / "scene.txt"

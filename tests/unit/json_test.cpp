@@ -41,8 +41,8 @@ TEST_CASE("a scene in JSON is a scene") {
   REQUIRE(scene.diagnostics.empty());
   REQUIRE(scene.ok());
   REQUIRE(scene.shapes >= 3);
-  const std::string written = scene.json_at(0);
-  REQUIRE(load(written).json_at(0) == written);
+  const std::string written = scene.json_at(0, {});
+  REQUIRE(load(written).json_at(0, {}) == written);
 }
 
 TEST_CASE("a JSON scene cut at any byte is an error with a place") {

@@ -233,7 +233,7 @@ TEST_CASE("a misspelt material finds its name in the library, and one defined be
 TEST_CASE("a scene written down has the library's materials in place") {
   const LoadedScene loaded =
       load(kFrame + std::string("sphere { material glass } sphere { material glass }"));
-  const std::string json = loaded.json_at(0);
+  const std::string json = loaded.json_at(0, {});
   CHECK(json.find(R"("material": {"transmission": 1, "ior": 1.5})") != std::string::npos);
   const auto again = load(json).scene_at(0);
   CHECK(again->description().materials[again->description().material_of[1]].transmission == 1);
@@ -421,7 +421,7 @@ TEST_CASE("display colours stay what they are through definitions, settings and 
   };
   const LoadedScene loaded = load(text);
   check(loaded);
-  check(load(loaded.json_at(0)));
+  check(load(loaded.json_at(0, {})));
   LoadOptions options;
   options.settings.push_back({"shade", "#ff6347"});
   check(load(text, options));
