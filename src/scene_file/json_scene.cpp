@@ -69,6 +69,7 @@ class SceneReader {
 
   bool expect(const JsonValue& value, JsonType type, std::string_view what, std::string suggestion = {}) {
     if (value.type == type) return true;
+    if (value.type == JsonType::kBad) return false;
     error(mark(value), fmt::format("{} is missing here", what), std::move(suggestion));
     return false;
   }
@@ -443,6 +444,8 @@ ValueNode SceneReader::value_of(const JsonValue& json, const PropertyRow* row) {
     case JsonType::kFalse:
       value.kind = ValueKind::kWord;
       value.name = names_.id_of(text(json.span));
+      return value;
+    case JsonType::kBad:
       return value;
     default:
       error(mark(json), fmt::format("{} is no value here", json.type == JsonType::kNull    ? "null"

@@ -189,14 +189,13 @@ class JsonParser {
       if (!is_new) {
         diagnostics_.error({&source_, key->span}, fmt::format("{} is given twice", source_.text(key->span)),
                            {}, {{{&source_, first->second}, "first given here"}});
-        return std::nullopt;
       }
       skip_blanks();
       if (here() != ':') return unexpected("':'");
       ++position_;
       const std::optional<JsonValue> value = parse_value(depth + 1);
       if (!value) return std::nullopt;
-      members.push_back({*key, *value});
+      if (is_new) members.push_back({*key, *value});
       if (!next('}', begin, more)) return std::nullopt;
     }
     JsonValue value;
@@ -298,7 +297,8 @@ class JsonParser {
     const auto [stop, status] = std::from_chars(text_.data() + position_, text_.data() + end, value.number);
     if (status == std::errc::result_out_of_range) {
       if (!is_tiny_number(source_.text(value.span))) {
-        return fail(value.span, fmt::format("'{}' is too large a number", source_.text(value.span)));
+        fail(value.span, fmt::format("'{}' is too large a number", source_.text(value.span)));
+        value.type = JsonType::kBad;
       }
       value.number = 0;
     }

@@ -11,7 +11,16 @@
 
 namespace raytracer::scene_file {
 
-enum class JsonType : std::uint8_t { kNull, kTrue, kFalse, kNumber, kString, kArray, kObject };
+enum class JsonType : std::uint8_t {
+  kNull,
+  kTrue,
+  kFalse,
+  kNumber,
+  kString,
+  kArray,
+  kObject,
+  kBad,  ///< already reported; stands for a value that nobody knows
+};
 
 struct JsonMember;
 
@@ -32,7 +41,8 @@ struct JsonMember {
 };
 
 /// Parses a source that holds one value, nested about twice as deep as blocks may be; null where it does not,
-/// and the first mistake has been reported.
+/// and the first mistake has been reported. A mistake that leaves no doubt of where the text goes on is
+/// reported without ending it.
 const JsonValue* parse_json(const Source& source, Arena& arena, Diagnostics& diagnostics);
 
 /// The text of a string, its escapes resolved. `inside` stands between the quotes and is well-formed.

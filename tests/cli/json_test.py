@@ -198,7 +198,7 @@ class Mistakes(unittest.TestCase):
         ('{"blocks": []', 1, 1, "this '{' is never closed"),
         ('{"blocks": []} x', 1, 16, "behind the scene"),
         ('{"blocks": [], "blocks": []}', 1, 16, "given twice"),
-        ('{"blo\\u0063ks": [], "blocks": []}', 1, 21, "given twice"),
+        ('{"blocks": [], "blo\\u0063ks": []}', 1, 16, "given twice"),
         ('{"blocks": [tru]}', 1, 13, "'tru' stands where a value is missing"),
         ('{"blocks": [01]}', 1, 13, "'01' is not a number"),
         ('{"blocks": [1.]}', 1, 13, "'1.' is not a number"),
@@ -267,6 +267,15 @@ class Mistakes(unittest.TestCase):
         done = run("check", "-", "--format", "json", stdin=scene_of(
             '{"kind": "sphere", "radius": -1},\n{"kind": "cube", "sise": 1, "center": 2}').encode())
         self.assertEqual(done.stdout.count(b'"severity": "error"'), 3)
+
+    def test_a_number_too_large_or_a_second_value_ends_nothing(self):
+        done = run("check", "-", "--format", "json", stdin=scene_of(
+            '{"kind": "sphere", "raduis": 1},\n{"kind": "sphere", "radius": 1e999},\n'
+            '{"kind": "sphere", "center": [0, 1e999, 1]},\n{"kind": "cube", "size": 1, "size": 2},\n'
+            '{"kind": "cube", "sise": 1}').encode())
+        errors = [json.loads(each) for each in done.stdout.decode().splitlines()]
+        self.assertEqual([e["line"] for e in errors], [2, 3, 4, 5, 6], errors)
+        self.assertEqual([e["message"].count("too large") for e in errors], [0, 1, 1, 0, 0])
 
 
 class AnyText(unittest.TestCase):
