@@ -52,6 +52,7 @@ class ArgumentReader {
       case PropertyType::kStop:
         return stop();
       case PropertyType::kNumbers:
+      case PropertyType::kIndices:
         return list();
       default:
         return numbers();
@@ -147,8 +148,9 @@ class ArgumentReader {
       count_ = 0;
       if (!value.is_known() || !take(node, value)) return std::nullopt;
       for (std::size_t i = 0; i < count_; ++i) {
-        sound = sound && check_range(components_[i]);
+        sound = check_range(components_[i]) && sound;
         argument_.list.push_back(components_[i].number);
+        if (row_.type == PropertyType::kIndices) argument_.places.push_back(node.span);
       }
     }
     return sound ? std::optional(std::move(argument_)) : std::nullopt;
@@ -170,10 +172,13 @@ class ArgumentReader {
     const std::string found =
         node.kind == ValueKind::kNumber ? std::string(text(node)) : detail::number_text(x);
     if (x >= range.least && x <= range.most && !(range.above_least && x == range.least)) {
-      const bool whole = row_.type == PropertyType::kInteger || row_.type == PropertyType::kPixels;
+      const bool whole = row_.type == PropertyType::kInteger || row_.type == PropertyType::kPixels ||
+                         row_.type == PropertyType::kIndices;
       if (!whole || x == std::floor(x)) return true;
       error(node.span, fmt::format("'{}' takes {}, found {}", row_.name, describe_type(row_), found),
-            fmt::format("{} {}", row_.name, std::max(range.least, std::round(x))));
+            row_.type == PropertyType::kIndices
+                ? example()
+                : fmt::format("{} {}", row_.name, std::max(range.least, std::round(x))));
       return false;
     }
     std::string hint;
@@ -268,6 +273,7 @@ std::size_t most_numbers(PropertyType type) {
     case PropertyType::kMatrix:
       return kMostNumbers;
     case PropertyType::kNumbers:
+    case PropertyType::kIndices:
       return std::numeric_limits<std::size_t>::max();
     default:
       return 0;

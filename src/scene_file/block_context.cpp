@@ -33,6 +33,10 @@ void BlockContext::value_error(std::string_view property, std::string message, s
   builder_.diagnostics_.error(given(property)->values, std::move(message), std::move(suggestion));
 }
 
+void BlockContext::error_at(Span span, std::string message, std::string suggestion) {
+  builder_.diagnostics_.error(place(span), std::move(message), std::move(suggestion));
+}
+
 void BlockContext::warning(std::string_view property, std::string message, std::string suggestion) {
   builder_.diagnostics_.warning(place_of(property), std::move(message), std::move(suggestion));
 }

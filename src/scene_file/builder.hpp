@@ -96,6 +96,8 @@ class BlockContext {
   void error(std::string_view property, std::string message, std::string suggestion = {});
   /// Likewise, at the values of a property that was given.
   void value_error(std::string_view property, std::string message, std::string suggestion = {});
+  /// Likewise, at a part of the block's text.
+  void error_at(Span span, std::string message, std::string suggestion = {});
   void warning(std::string_view property, std::string message, std::string suggestion = {});
   /// Of a property, or of the block's header where the property was not given.
   Place place_of(std::string_view property) const;

@@ -1,9 +1,9 @@
 // The row of the mesh.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <optional>
 
+#include "meshes/flat_faces.hpp"
 #include "raytracer/error.hpp"
 #include "scene_file/builder.hpp"
 #include "scene_file/kinds.hpp"
@@ -16,7 +16,8 @@ using Numbers = std::vector<double>;
 
 struct MeshInput {
   FileName file;
-  Numbers vertices, faces, normals, uvs, colors;
+  Numbers vertices, normals, uvs, colors;
+  IndexList faces;
   std::optional<double> smooth;
   bool flip = false, recenter = false;
   std::optional<double> fit;
@@ -72,19 +73,50 @@ bool has_all(const Numbers& numbers, std::size_t each, std::size_t count, const 
   return false;
 }
 
-bool check_faces(const Numbers& faces, std::size_t vertices, BlockContext& block) {
-  if (faces.size() % 3 != 0) {
-    block.error("faces",
-                fmt::format("'faces' takes three numbers for each triangle, found {}", faces.size()));
+bool check_faces(const IndexList& faces, std::size_t vertices, BlockContext& block) {
+  bool sound = true;
+  for (std::size_t i = 0; i < faces.numbers.size(); ++i) {
+    if (faces.numbers[i] < static_cast<double>(vertices)) continue;
+    block.error_at(faces.places[i], fmt::format("there is no vertex {}: they are numbered 0 to {}",
+                                                faces.numbers[i], vertices - 1));
+    sound = false;
+  }
+  if (faces.numbers.size() % 3 == 0) return sound;
+  block.error("faces",
+              fmt::format("'faces' takes three numbers for each triangle, found {}", faces.numbers.size()));
+  return false;
+}
+
+// Triangles that nobody can see are left out, as those of a file are.
+bool leave_out_flat_faces(MeshData& data, BlockContext& block) {
+  try {
+    meshes::leave_out_flat_faces(data, 0);
+  } catch (const Error& problem) {
+    block.error("faces", fmt::format("there is nothing to see of this mesh: {}", problem.what()));
     return false;
   }
-  for (const double index : faces) {
-    if (index == std::floor(index) && index < static_cast<double>(vertices)) continue;
-    block.error("faces",
-                fmt::format("there is no vertex {}: they are numbered 0 to {}", index, vertices - 1));
-    return false;
-  }
+  for (const std::string& remark : data.remarks) block.warning("faces", remark);
   return true;
+}
+
+std::shared_ptr<MeshData> data_of(const MeshInput& in) {
+  const std::size_t count = in.vertices.size() / 3;
+  auto data = std::make_shared<MeshData>();
+  data->positions.reserve(count + 1);
+  for (std::size_t i = 0; i < count; ++i) data->positions.push_back(vector_at(in.vertices, i));
+  for (std::size_t i = 0; i < in.normals.size() / 3; ++i) {
+    const Vector3f normal = vector_at(in.normals, i);
+    data->normals.push_back(normal == Vector3f(0) ? normal : glm::normalize(normal));
+  }
+  for (std::size_t i = 0; i < in.colors.size() / 3; ++i) data->colors.push_back(vector_at(in.colors, i));
+  for (std::size_t i = 0; i + 1 < in.uvs.size(); i += 2)
+    data->uvs.emplace_back(static_cast<float>(in.uvs[i]), static_cast<float>(in.uvs[i + 1]));
+  const Numbers& faces = in.faces.numbers;
+  for (std::size_t i = 0; i < faces.size(); i += 3) {
+    data->triangles.push_back({static_cast<std::uint32_t>(faces[i]), static_cast<std::uint32_t>(faces[i + 1]),
+                               static_cast<std::uint32_t>(faces[i + 2])});
+  }
+  return data;
 }
 
 void build_inline(const MeshInput& in, BlockContext& block) {
@@ -98,21 +130,8 @@ void build_inline(const MeshInput& in, BlockContext& block) {
   sound = has_all(in.colors, 3, count, "colors", block) && sound;
   sound = check_faces(in.faces, count, block) && sound;
   if (!sound) return;
-  auto data = std::make_shared<MeshData>();
-  data->positions.reserve(count + 1);
-  for (std::size_t i = 0; i < count; ++i) data->positions.push_back(vector_at(in.vertices, i));
-  for (std::size_t i = 0; i < in.normals.size() / 3; ++i) {
-    const Vector3f normal = vector_at(in.normals, i);
-    data->normals.push_back(normal == Vector3f(0) ? normal : glm::normalize(normal));
-  }
-  for (std::size_t i = 0; i < in.colors.size() / 3; ++i) data->colors.push_back(vector_at(in.colors, i));
-  for (std::size_t i = 0; i + 1 < in.uvs.size(); i += 2)
-    data->uvs.emplace_back(static_cast<float>(in.uvs[i]), static_cast<float>(in.uvs[i + 1]));
-  for (std::size_t i = 0; i < in.faces.size(); i += 3) {
-    data->triangles.push_back({static_cast<std::uint32_t>(in.faces[i]),
-                               static_cast<std::uint32_t>(in.faces[i + 1]),
-                               static_cast<std::uint32_t>(in.faces[i + 2])});
-  }
+  std::shared_ptr<MeshData> data = data_of(in);
+  if (!leave_out_flat_faces(*data, block)) return;
   block.add_shape([&]() -> std::unique_ptr<Shape> {
     prepare_mesh(*data, options_of(in), block.placed(Vector3d(0)));
     const auto triangles = static_cast<std::uint32_t>(data->triangles.size());

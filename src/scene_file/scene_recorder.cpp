@@ -52,6 +52,7 @@ std::string value_text(const PropertyRow& row, const Argument& argument) {
       if (n[0] == n[1] && n[1] == n[2]) return fmt::format("{}", n[0]);
       break;
     case PropertyType::kNumbers:
+    case PropertyType::kIndices:
       return array_text(argument.list);
     default:
       break;

@@ -135,6 +135,8 @@ std::string describe_type(const PropertyRow& row) {
       return "twelve numbers";
     case PropertyType::kNumbers:
       return "numbers";
+    case PropertyType::kIndices:
+      return "whole numbers";
   }
   return {};
 }
@@ -153,6 +155,8 @@ std::string example_value(const PropertyRow& row) {
       return "\"file\"";
     case PropertyType::kNumbers:
       return "0 0 0  1 0 0  0 1 0";
+    case PropertyType::kIndices:
+      return "0 1 2  0 2 3";
     case PropertyType::kVector:
       return "0 1 0";
     case PropertyType::kSize:

@@ -13,6 +13,7 @@
 
 #include "raytracer/texture.hpp"
 #include "raytracer/vector3f.hpp"
+#include "scene_file/source.hpp"
 
 namespace raytracer::scene_file {
 
@@ -38,6 +39,7 @@ enum class PropertyType : std::uint8_t {
   kAxisAngle,
   kMatrix,
   kNumbers,  ///< any number of numbers, vectors among them
+  kIndices,  ///< likewise whole ones, which keep their places
 };
 
 /// The values that make sense, for each number of a property.
@@ -59,7 +61,8 @@ inline constexpr Range kBrightness{0, kBrightest, false};
 struct Argument {
   std::array<double, 12> numbers{};
   std::string text;
-  std::vector<double> list;  ///< of kNumbers
+  std::vector<double> list;  ///< of kNumbers and kIndices
+  std::vector<Span> places;  ///< of kIndices: where each of the list is written
   std::uint32_t index = 0;   ///< of a word in its list, of a material in the scene
   bool is_display = false;   ///< of a colour, as Value has it
   bool depends_on_time = false;
@@ -91,6 +94,12 @@ struct ColorOrTexture {
 /// The name of a file as written.
 struct FileName {
   std::string name;
+};
+
+/// Numbers of other things, and where each stands.
+struct IndexList {
+  std::vector<double> numbers;
+  std::vector<Span> places;
 };
 
 struct PropertyRow {
@@ -228,6 +237,7 @@ constexpr PropertyType property_type() {
   if constexpr (std::is_same_v<T, std::string>) return PropertyType::kString;
   if constexpr (std::is_same_v<T, FileName>) return PropertyType::kFile;
   if constexpr (std::is_same_v<T, std::vector<double>>) return PropertyType::kNumbers;
+  if constexpr (std::is_same_v<T, IndexList>) return PropertyType::kIndices;
   if constexpr (std::is_same_v<T, Vector3d>) return PropertyType::kVector;
   if constexpr (std::is_same_v<T, std::array<int, 2>>) return PropertyType::kPixels;
   if constexpr (std::is_same_v<T, std::array<double, 2>>) return PropertyType::kPair;
@@ -247,6 +257,7 @@ T from_argument(const Argument& a) {
   if constexpr (std::is_same_v<T, std::string>) return a.text;
   if constexpr (std::is_same_v<T, FileName>) return {a.text};
   if constexpr (std::is_same_v<T, std::vector<double>>) return a.list;
+  if constexpr (std::is_same_v<T, IndexList>) return {a.list, a.places};
   if constexpr (std::is_same_v<T, Vector3d>) return {n[0], n[1], n[2]};
   if constexpr (std::is_same_v<T, std::array<int, 2>>)
     return {static_cast<int>(n[0]), static_cast<int>(n[1])};

@@ -174,13 +174,27 @@ class Meshes(unittest.TestCase):
         self.assertEqual(run(*command).returncode, 0)
         self.assertNotEqual((self.folder / "f01.png").read_bytes(), first)
 
+    def test_triangles_without_area_are_told(self):
+        corners = "vertices 0 0 0  1 0 0  0 1 0  2 0 0"
+        self.mistake(f"mesh {{ {corners}  faces 0 1 3  1 1 2 }}", "none of its 2 faces has an area", "scene.txt:1:45")
+        self.mistake(f"mesh {{ {corners}  faces 0 1 3 }}", "its one face has no area")
+        done = self.render(HEAD + f"mesh {{ {corners}  faces 0 1 2  0 1 3 }}")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn(b"1 of 2 triangles has no area and is left out", done.stderr)
+        self.assertEqual(done.stdout, self.picture(HEAD + f"mesh {{ {corners}  faces 0 1 2 }}"))
+
     def test_mistakes(self):
         self.mistake("mesh { }", "neither 'file' nor 'vertices'")
         self.mistake('mesh { file "nothing.ply" }', "there is no file 'nothing.ply'", "scene.txt:1:8")
         self.mistake('mesh { file "parts" }', "is not a file to read a mesh from", "it is a folder")
         self.mistake('mesh { file "/etc/passwd" }', "outside of the scene's folder")
         self.mistake('mesh { file "cube.ply"  faces 0 1 2 }', "'faces' stands in place of 'file'")
-        self.mistake("mesh { vertices 0 0 0  1 0 0  0 1 0  faces 0 1 3 }", "there is no vertex 3")
+        self.mistake("mesh { vertices 0 0 0  1 0 0  0 1 0  faces 0 1 3 }", "there is no vertex 3", "scene.txt:1:48")
+        self.mistake("mesh { vertices 0 0 0  1 0 0  0 1 0  faces 0 7 2  0 9 1 }", "there is no vertex 7", "scene.txt:1:46",
+                     "there is no vertex 9", "scene.txt:1:53")
+        self.mistake("mesh { vertices 0 0 0  1 0 0  0 1 0  faces (0, 7, 2) }", "there is no vertex 7", "scene.txt:1:44")
+        self.mistake("mesh { vertices 0 0 0  1 0 0  0 1 0  faces 0 1.5 2 }", "takes whole numbers, found 1.5",
+                     "scene.txt:1:46", "faces 0 1 2  0 2 3")
         self.mistake("mesh { vertices 0 0 0  1 0  faces 0 1 2 }", "three numbers for each corner, found 5")
         self.mistake("mesh { vertices 0 0 0  1 0 0  0 1 0  faces 0 1 }", "three numbers for each triangle, found 2")
         self.mistake("mesh { vertices 0 0 0  1 0 0  0 1 0  faces 0 1 2  uvs 0 0 }", "'uvs' takes 2 numbers")
