@@ -1,7 +1,9 @@
 #include "image/png_text.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "image/zlib_pieces.hpp"
 
@@ -10,7 +12,6 @@ namespace {
 
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1A\n";
 constexpr std::string_view kEnd("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
-constexpr std::uint32_t kLongestText = 1 << 16;
 
 std::uint32_t number_at(const std::string& bytes, std::size_t at) {
   std::uint32_t number = 0;
@@ -33,28 +34,37 @@ bool is_whole(std::istream& file) {
   return ends_well && take(file, kSignature.size()) == kSignature;
 }
 
+// The content of the next chunk, whose checksum is right; nothing where there is none.
+std::optional<std::string> take_chunk(std::istream& file, std::uintmax_t most, std::string& type) {
+  const std::string head = take(file, 8);
+  if (head.size() < 8 || number_at(head, 0) > most) return std::nullopt;
+  type = head.substr(4);
+  std::string content = take(file, number_at(head, 0));
+  const std::string checksum = take(file, 4), summed = type + content;
+  const bool is_sound = checksum.size() == 4 && crc32_of(reinterpret_cast<const std::uint8_t*>(summed.data()),
+                                                         summed.size()) == number_at(checksum, 0);
+  return is_sound ? std::optional(std::move(content)) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> read_png_text(const std::string& path, std::string_view keyword) {
   std::ifstream file(path, std::ios::binary);
   if (!file || !is_whole(file)) return std::nullopt;
-  while (true) {
-    const std::string head = take(file, 8);
-    if (head.size() < 8) return std::nullopt;
-    const std::uint32_t size = number_at(head, 0);
-    const std::string type = head.substr(4);
-    if (type == "IDAT" || size > kLongestText) return std::nullopt;
-    const std::string content = take(file, size), checksum = take(file, 4);
-    if (checksum.size() < 4) return std::nullopt;
-    const std::string summed = type + content;
-    const bool is_sound = crc32_of(reinterpret_cast<const std::uint8_t*>(summed.data()), summed.size()) ==
-                          number_at(checksum, 0);
-    const std::size_t name_size = content.find('\0');
-    if (type == "tEXt" && is_sound && name_size != std::string::npos &&
-        content.substr(0, name_size) == keyword) {
-      return content.substr(name_size + 1);
-    }
+  std::error_code unknown;
+  const std::uintmax_t most = std::filesystem::file_size(path, unknown);  // that a chunk can hold
+  std::optional<std::string> text;
+  bool has_pixels = false;
+  for (std::string type; type != "IEND";) {
+    const std::optional<std::string> content = take_chunk(file, unknown ? 0 : most, type);
+    if (!content) return std::nullopt;
+    has_pixels = has_pixels || type == "IDAT";
+    const std::size_t name_size = content->find('\0');
+    const bool is_it = type == "tEXt" && !has_pixels && name_size != std::string::npos &&
+                       content->substr(0, name_size) == keyword;
+    if (is_it && !text) text = content->substr(name_size + 1);
   }
+  return text;
 }
 
 }  // namespace raytracer

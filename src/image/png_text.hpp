@@ -19,7 +19,7 @@ struct PngText {
 std::vector<std::uint8_t> encode_png_with(const std::vector<PngText>& texts, const Image& image);
 
 /// The uncompressed remark of that keyword in front of the pixels of the PNG at `path`. Nothing where there
-/// is none, or no PNG that is whole.
+/// is none, or no PNG that is whole: it ends as it should, and the checksums of all its chunks are right.
 std::optional<std::string> read_png_text(const std::string& path, std::string_view keyword);
 
 }  // namespace raytracer

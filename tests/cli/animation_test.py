@@ -355,6 +355,17 @@ class Resume(InAFolder):
         self.render("-o", "f01.png")
         self.assertEqual(self.render_again("--frames", "1"), [1])
 
+    def test_damaged_pixels_are_made_anew(self):
+        self.render("-o", "f##.png")
+        whole = self.read("f05.png")
+        begin = whole.index(b"IDAT") + 4
+        for place in (begin, (begin + len(whole)) // 2, len(whole) - 17, 30):
+            damaged = bytearray(whole)
+            damaged[place] ^= 0x10
+            (self.folder / "f05.png").write_bytes(damaged)
+            self.assertEqual(self.render_again(), [5], place)
+            self.assertEqual(self.read("f05.png"), whole)
+
     def test_a_blurred_frame_is_made_anew_when_only_its_motion_changed(self):
         scene = ("image {{ size 24 16 }} render {{ samples 8 }} animation {{ duration 1 fps 4 }}\n"
                  "camera {{ position 0 0 5 shutter 1 }} light {{ position 0 3 5 }}\n"
