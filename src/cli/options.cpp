@@ -7,6 +7,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 #include "cli/commands.hpp"
 #include "core/suggest.hpp"
@@ -89,6 +90,16 @@ void set_limit(Options& options, const std::string& value) {
       fmt::format("--limit takes NAME=N, where NAME is one of {}, not '{}'", fmt::join(known, ", "), value));
 }
 
+void allow_folder(Options& options, const std::string& value) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(value, error);
+  if (!std::filesystem::is_directory(status)) {
+    usage_error(fmt::format("--allow-path takes a folder, and {} '{}'",
+                            std::filesystem::exists(status) ? "that is none:" : "there is no", value));
+  }
+  options.load.allowed_folders.push_back(value);
+}
+
 constexpr std::uint8_t kLoading = kRender | kCheck | kParams;
 constexpr std::uint8_t kAll = kRender | kCheck | kHelp | kParams | kFmt | kJson;
 
@@ -111,7 +122,7 @@ constexpr OptionRow kOptions[] = {
     {"--camera", "", "NAME", kLoading, false, "the camera to use, where the scene has several",
      [](Options& o, const std::string& v) { o.load.camera = v; }},
     {"--allow-path", "", "DIR", kLoading | kJson, false, "a further folder that the scene may read from",
-     [](Options& o, const std::string& v) { o.load.allowed_folders.push_back(v); }, true},
+     allow_folder, true},
     {"--set", "", "NAME=VALUE", kLoading | kJson, false, "another value for a top-level let", add_setting,
      true},
     {"--limit", "", "NAME=N", kLoading | kJson, false, "raises a limit, as nesting=1000", set_limit, true},
@@ -175,7 +186,9 @@ std::string_view as_written(std::string_view rest, std::span<const std::string> 
 
 std::string unknown_option(const CommandRow& command, std::string_view word) {
   const std::string_view name = word.substr(0, word.find('='));
-  if (std::ranges::find(kOptions, name, &OptionRow::name) != std::end(kOptions)) {
+  const bool is_of_another = std::ranges::find(kOptions, name, &OptionRow::name) != std::end(kOptions) ||
+                             std::ranges::find(kOptions, name, &OptionRow::alias) != std::end(kOptions);
+  if (is_of_another) {
     return fmt::format("{} has no option '{}'; raytracer --help lists them", command.name, name);
   }
   const std::string_view meant = option_meant(command, name);

@@ -144,6 +144,12 @@ class UnknownWords(unittest.TestCase):
     def test_an_option_of_another_command(self):
         self.assert_says(["check", "scene.txt", "--threads", "3"], "--threads", "check")
         self.assert_says(["scene.txt", "--format", "json"], "--format")
+        for command in ("check", "fmt"):
+            self.assert_says([command, "scene.txt", "-o", "x"], f"{command} has no option '-o'")
+
+    def test_a_folder_that_is_none(self):
+        self.assert_says(["check", "-", "--allow-path", "/no/such/folder"], "--allow-path", "no '/no/such/folder'")
+        self.assert_says(["check", "-", "--allow-path", __file__], "--allow-path takes a folder", __file__)
 
     def test_a_misspelt_command(self):
         self.assert_says(["chekc", "scene.txt"], "'chekc'", "did you mean 'check'?")
