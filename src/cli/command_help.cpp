@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -9,6 +11,7 @@
 #include "cli/reference.hpp"
 #include "core/suggest.hpp"
 #include "raytracer/error.hpp"
+#include "scene_file/limits.hpp"
 #include "scene_file/material_library.hpp"
 #include "scene_file/word_help.hpp"
 
@@ -21,20 +24,24 @@ using scene_file::LibraryMaterial;
 using scene_file::PropertyRow;
 using scene_file::WordRow;
 
-constexpr std::string_view kFunctionsTopic = "functions";
-constexpr std::string_view kMaterialsTopic = "materials";
-
 std::string list_line(std::string_view title, std::string_view help) {
   return fmt::format("  {:<18}  {}\n", title, help);
 }
+
+// A word that stands for a list of others.
+struct TopicRow {
+  std::string_view name, help;
+  std::string (*text)();
+};
+std::span<const TopicRow> all_topics();
 
 std::string list_of_words() {
   std::string out = "The blocks of a scene. 'raytracer help sphere' explains one.\n\n";
   for (const KindRow& kind : scene_file::all_kinds()) out += list_line(title_of(kind), kind.help);
   out += "\nAround them:\n\n";
   for (const WordRow& row : scene_file::all_statements()) out += list_line(row.name, row.help);
-  out += list_line(kMaterialsTopic, "Materials that every scene may name: glass, gold, …");
-  return out + list_line(kFunctionsTopic, "What can be computed with: sin, mix, random, …");
+  for (const TopicRow& row : all_topics()) out += list_line(row.name, row.help);
+  return out;
 }
 
 std::string property_text(const KindRow& kind, const PropertyRow& row) {
@@ -49,21 +56,56 @@ std::string kind_text(const KindRow& kind) {
   std::string out = fmt::format("{}: {}\n\n", title_of(kind), kind.help);
   for (const PropertyRow& row : kind.properties) out += property_text(kind, row);
   if (kind.takes_material) out += property_text(kind, scene_file::material_property());
-  if (kind.placing == scene_file::Placing::kNone) return out;
-  out += "\n  Where it stands, all in the order written:\n";
-  for (const PropertyRow& row : scene_file::transform_properties()) {
-    if (can_be_placed_by(kind, row)) out += property_text(kind, row);
-  }
   return out;
+}
+
+// What places these kinds, said once for all of them.
+std::string placing_text(const std::vector<const KindRow*>& kinds) {
+  std::string out;
+  const auto placed = std::ranges::count_if(
+      kinds, [](const KindRow* kind) { return kind->placing != scene_file::Placing::kNone; });
+  for (const PropertyRow& row : scene_file::transform_properties()) {
+    std::vector<std::string> names;
+    for (const KindRow* kind : kinds) {
+      if (can_be_placed_by(*kind, row)) names.push_back(title_of(*kind));
+    }
+    if (names.empty()) continue;
+    out += property_text(*kinds.front(), row);
+    if (std::ssize(names) < placed) out += fmt::format("  {:<13} of {} alone\n", "", fmt::join(names, ", "));
+  }
+  return out.empty() ? out : "\n  Where it stands, all in the order written:\n" + out;
 }
 
 // A kind with all its variants, or the one named; empty where there is none.
 std::string kinds_text(std::string_view name, std::string_view variant) {
+  std::vector<const KindRow*> kinds;
   std::string out;
   for (const KindRow& kind : scene_file::all_kinds()) {
     if (kind.name != name || (!variant.empty() && kind.variant != variant)) continue;
-    if (!out.empty()) out += '\n';
-    out += kind_text(kind);
+    out += (kinds.empty() ? "" : "\n") + kind_text(kind);
+    kinds.push_back(&kind);
+  }
+  return kinds.empty() ? out : out + placing_text(kinds);
+}
+
+// The kinds whose property it is, those with the same words for it in one place; empty where none has it.
+std::string property_of_kinds_text(std::string_view name) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> rows;  // a row, and the kinds that have it
+  for (const KindRow& kind : scene_file::all_kinds()) {
+    const PropertyRow* row = scene_file::find_property(kind, name);
+    if (row == nullptr) continue;
+    const std::string text = property_text(kind, *row);
+    auto known = std::ranges::find(rows, text, &decltype(rows)::value_type::first);
+    if (known == rows.end()) known = rows.insert(rows.end(), {text, {}});
+    known->second.push_back(title_of(kind));
+  }
+  const bool places = std::ranges::find(scene_file::transform_properties(), name, &PropertyRow::name) !=
+                      scene_file::transform_properties().end();
+  if (places) rows.front().second = {"all that has a place"};
+  std::string out;
+  for (const auto& [text, kinds] : rows) {
+    out += fmt::format("{}{}, a property of {}:\n\n{}", out.empty() ? "" : "\n", name, fmt::join(kinds, ", "),
+                       text);
   }
   return out;
 }
@@ -83,22 +125,48 @@ std::string word_text(const WordRow& row) {
 }
 
 std::string functions_text() {
-  std::string out = fmt::format(
-      "{}: They stand in expressions, as in 'radius (0.5 + 0.1 * sin(90 * t))'.\n\n", kFunctionsTopic);
+  std::string out = "functions: They stand in expressions, as in 'radius (0.5 + 0.1 * sin(90 * t))'.\n\n";
   for (const FunctionRow& row : scene_file::all_functions()) out += list_line(call_of(row), row.help);
   for (const WordRow& row : scene_file::all_constants()) out += list_line(row.name, row.help);
   return out + "\nOperators: + - * / % ^   < <= > >= == !=   and or not   a ? b : c   v.x v.y v.z\n";
 }
 
 std::string materials_text() {
-  std::string out = fmt::format(
-      "{}: Every scene may name them, as in 'sphere {{ material glass }}'. One of the same name that the "
+  std::string out =
+      "materials: Every scene may name them, as in 'sphere { material glass }'. One of the same name that "
+      "the "
       "scene\n"
-      "defines takes its place. 'raytracer help glass' shows what one is made of.\n\n",
-      kMaterialsTopic);
+      "defines takes its place. 'raytracer help glass' shows what one is made of.\n\n";
   for (const LibraryMaterial& row : scene_file::material_library()) out += list_line(row.name, row.help);
   return out;
 }
+
+std::string textures_text() {
+  std::string out =
+      "textures: They stand in place of a colour or a number of a material, as in 'color checker { }'.\n"
+      "'raytracer help checker' explains one.\n\n";
+  for (const KindRow& kind : scene_file::all_kinds()) {
+    if (kind.name == scene_file::kTextureKind) out += list_line(kind.variant, kind.help);
+  }
+  return out;
+}
+
+std::string limits_text() {
+  std::string out =
+      "limits: How much a scene may ask for, as in 'raytracer scene.txt --limit nesting=1000'.\n\n";
+  for (const scene_file::LimitRow& row : scene_file::all_limits()) {
+    out += list_line(row.name, fmt::format("At most {} {}.", Limits{}.*row.field, row.help));
+  }
+  return out;
+}
+
+constexpr TopicRow kTopics[] = {
+    {"materials", "Materials that every scene may name: glass, gold, …", materials_text},
+    {"textures", "What a colour or a number of a material may be in place of one value.", textures_text},
+    {"functions", "What can be computed with: sin, mix, random, …", functions_text},
+    {"limits", "How much a scene may ask for, and how it gets more.", limits_text},
+};
+std::span<const TopicRow> all_topics() { return kTopics; }
 
 std::string material_text(const LibraryMaterial& row) {
   return fmt::format("{0}: {1}\n\n  material {0} {{ {2} }}\n", row.name, row.help, row.text);
@@ -106,8 +174,9 @@ std::string material_text(const LibraryMaterial& row) {
 
 // Of a word other than a block; empty where it is none of the language.
 std::string other_text(std::string_view word) {
-  if (word == kFunctionsTopic) return functions_text();
-  if (word == kMaterialsTopic) return materials_text();
+  for (const TopicRow& topic : all_topics()) {
+    if (topic.name == word) return topic.text();
+  }
   for (const auto& rows : {scene_file::all_statements(), scene_file::all_constants()}) {
     const auto row = std::ranges::find(rows, word, &WordRow::name);
     if (row != rows.end()) return word_text(*row);
@@ -118,8 +187,8 @@ std::string other_text(std::string_view word) {
   if (material != nullptr) return material_text(*material);
   // A variant by its own word: checker, a texture.
   const auto kind = std::ranges::find(scene_file::all_kinds(), word, &KindRow::variant);
-  return kind == scene_file::all_kinds().end() || word.empty() ? std::string()
-                                                               : kinds_text(kind->name, kind->variant);
+  if (kind != scene_file::all_kinds().end() && !word.empty()) return kinds_text(kind->name, kind->variant);
+  return property_of_kinds_text(word);
 }
 
 [[noreturn]] void unknown_word(const std::string& message, std::string_view word,
@@ -134,7 +203,13 @@ std::string topic_text(const std::string& topic) {
   std::string text = kinds_text(topic, {});
   if (text.empty()) text = other_text(topic);
   if (text.empty()) {
-    unknown_word(fmt::format("the scene language has no word '{}'", topic), topic, help_topics(),
+    std::vector<std::string_view> known = help_topics();
+    for (const KindRow& kind : scene_file::all_kinds()) {
+      if (!kind.variant.empty()) known.push_back(kind.variant);
+      for (const PropertyRow& row : kind.properties) known.push_back(row.name);
+    }
+    for (const PropertyRow& row : scene_file::transform_properties()) known.push_back(row.name);
+    unknown_word(fmt::format("the scene language has no word '{}'", topic), topic, known,
                  "'raytracer help' lists them");
   }
   return text;
@@ -160,8 +235,7 @@ std::vector<std::string_view> help_topics() {
     if (row.variant.empty()) words.push_back(row.name);
   }
   for (const WordRow& row : scene_file::all_statements()) words.push_back(row.name);
-  words.push_back(kMaterialsTopic);
-  words.push_back(kFunctionsTopic);
+  for (const TopicRow& row : all_topics()) words.push_back(row.name);
   for (const FunctionRow& row : scene_file::all_functions()) words.push_back(row.name);
   for (const WordRow& row : scene_file::all_constants()) words.push_back(row.name);
   for (const LibraryMaterial& row : scene_file::material_library()) words.push_back(row.name);

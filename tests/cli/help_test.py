@@ -59,6 +59,27 @@ class Words(unittest.TestCase):
         self.assertIn("did you mean 'spot'?", refusal("light", "spto"))
         self.assertIn("did you mean 'light'?", refusal("lihgt", "spot"))
 
+    def test_a_property(self):
+        radius = page("radius")
+        self.assertRegex(radius, r"(?m)^radius, a property of .*\bsphere\b")
+        self.assertRegex(radius, r"(?m)^  radius +\S")
+        self.assertIn("default 1", radius)
+        self.assertEqual(page("rotate").count("\n  rotate "), 2, page("rotate"))  # of all that is placed, of skies
+        self.assertIn("sky image", page("strength"))
+        self.assertIn("did you mean 'radius'?", refusal("raduis"))
+        self.assertIn("did you mean 'checker'?", refusal("chekcer"))
+
+    def test_topics(self):
+        for word in ("materials", "textures", "functions", "limits"):
+            self.assertRegex(page(), rf"(?m)^  {word} ")
+            self.assertTrue(page(word).startswith(f"{word}: "))
+        self.assertRegex(page("limits"), r"(?m)^  nesting .*256")
+        self.assertRegex(page("textures"), r"(?m)^  checker ")
+
+    def test_what_all_variants_share_stands_once(self):
+        self.assertEqual(page("light").count("Where it stands, all"), 1)
+        self.assertEqual(page("light", "spot").count("Where it stands, all"), 1)
+
     def test_a_word_that_has_no_second(self):
         for words in (("sphere", "cube"), ("sin", "cos"), ("let", "n")):
             self.assertIn(f"'{' '.join(words)}'", refusal(*words))
