@@ -41,6 +41,15 @@ class Scenes(unittest.TestCase):
                     checked += 1
         self.assertGreater(checked, 8)
 
+    def test_the_mistakes_shown_in_the_readme_are_told_so(self):
+        shown = re.search(r"```\n(error: .*?)```\n", PAGES[0].read_text(), re.DOTALL)[1]
+        with tempfile.TemporaryDirectory() as folder:
+            wrong = re.search(r"(?m)^7 \| (.*)$", shown)[1]
+            lines = (program.ROOT / "scenes" / "first.txt").read_text().split("\n")
+            (pathlib.Path(folder) / "first.txt").write_text("\n".join([*lines[:6], wrong, *lines[7:]]))
+            done = program.run("check", "first.txt", cwd=folder)
+        self.assertEqual(done.stderr.decode().rstrip(), shown.rstrip())
+
     def test_quoted_scenes_say_what_their_files_say(self):
         quoted = set()
         for page in PAGES:
