@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <vector>
 
 #include "core/suggest.hpp"
@@ -12,11 +14,19 @@
 namespace raytracer::scene_file {
 namespace {
 
+// `1 0 0`, as three numbers stand in a scene, becomes (1, 0, 0); anything else stays as it is.
+std::string three_in_parentheses(const std::string& written) {
+  if (written.find_first_not_of("0123456789+-.eE ") != std::string::npos) return written;
+  std::istringstream words(written);
+  std::vector<std::string> parts(std::istream_iterator<std::string>(words), {});
+  return parts.size() == 3 ? fmt::format("({})", fmt::join(parts, ", ")) : written;
+}
+
 // A value as a person types it: what is no number, colour, vector or quoted string is text.
 Value read_value(const std::string& written, Files& files) {
   const bool is_bare_vector =
       written.find(',') != std::string::npos && written.front() != '(' && written.front() != '"';
-  const std::string text = is_bare_vector ? fmt::format("({})", written) : written;
+  const std::string text = is_bare_vector ? fmt::format("({})", written) : three_in_parentheses(written);
   Diagnostics ignored;
   const Source source("--set", "", text);
   Arena arena;

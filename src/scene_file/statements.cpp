@@ -5,6 +5,7 @@
 
 #include "core/suggest.hpp"
 #include "scene_file/builder.hpp"
+#include "scene_file/colors.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -85,17 +86,22 @@ void Builder::build_let(const LetNode& let, const Surroundings& around, std::siz
   bindings.push(let.name, {value, &let, false}, place);
 }
 
-// What the caller says in place of a let's own value; it must be of the same type.
+// What the caller says in place of a let's own value; it must be of the same type. A colour may be said as
+// one number, as in the scene.
 Value Builder::replaced(const Replacement& replacement, const Value& original, const Place& place) const {
   if (original.type == ValueType::kString) return Value::string(replacement.text);
   const Value& value = replacement.value;
+  const bool is_color = original.type == ValueType::kColor;
+  if (is_color && value.is_number()) return Value::color(Vector3d(value.x()));
   const bool fits = value.type == original.type || (value.is_vector() && original.is_vector());
-  if (original.is_known() && !fits) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("--set {}={}: '{}' is {} in the scene, not {}", place.text(), replacement.text,
-                            place.text(), describe(original.type), describe(value.type)));
-  }
-  return value;
+  if (!original.is_known() || fits) return value;
+  const bool may_be_slip = is_color && value.type == ValueType::kString;
+  const std::string_view nearest =
+      may_be_slip ? nearest_word(replacement.text, color_names()) : std::string_view();
+  throw Error(ErrorKind::kUsage,
+              fmt::format("--set {}={}: '{}' is {} in the scene, not {}{}", place.text(), replacement.text,
+                          place.text(), describe(original.type), describe(value.type),
+                          nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
 }
 
 // Both ends belong to the loop; the number of turns is known before the first one.

@@ -38,6 +38,17 @@ class Set(InAScene):
         self.assertEqual(self.params("--set", "hat=#00ff00")[1], "hat = #00ff00")
         self.assertEqual(self.params("--set", "spot=1,2,3")[2], "spot = (1, 2, 3)")
 
+    def test_a_colour_as_the_language_has_it(self):
+        for value, like in (("0.5", "0.5 0.5 0.5"), ("1 0 0.25", "1 0 0.25"), ("0.2,0.4,1", "0.2 0.4 1")):
+            for method in ("classic", "path"):
+                options = ("-o", "-", "--method", method, "--samples", "1")
+                self.assertEqual(run("-", *options, "--set", f"hat={value}").stdout,
+                                 run("-", *options, scene=SCENE.replace("color hat", f"color {like}")).stdout, value)
+        self.assertEqual(self.params("--set", "spot=1 -2 3")[2], "spot = (1, -2, 3)")
+        self.assertEqual(self.params("--set", "word=1 2 3")[3], 'word = "1 2 3"')
+        self.assert_usage(run("check", "-", "--set", "hat=tomatoe"), "'hat' is a colour", "did you mean 'tomato'?")
+        self.assert_usage(run("check", "-", "--set", "n=red"), "'n' is a number")
+
     def test_several_of_them(self):
         self.assertEqual(self.params("--set", "n=3", "--set", "hat=blue")[:2], ["n = 3", "hat = #0000ff"])
 
