@@ -398,10 +398,17 @@ void Builder::halt(const Place& place, std::string message, std::string suggesti
 }
 
 void Builder::note_shape(const Place& place) {
-  if (++shapes_made_ > limits_.shapes) {
-    halt(place, fmt::format("the scene makes more than {} shapes", limits_.shapes),
-         "--limit shapes=N allows more");
-  }
+  ++built_out_;
+  if (has_room_for(1, place)) ++shapes_made_;
+}
+
+// Whether so many shapes more are allowed: what is known to come to too many is refused before it takes time
+// and memory. Otherwise reports it and stops all evaluation.
+bool Builder::has_room_for(double shapes, const Place& place) {
+  if (static_cast<double>(shapes_made_) + shapes <= static_cast<double>(limits_.shapes)) return true;
+  halt(place, fmt::format("the scene makes more than {} shapes", limits_.shapes),
+       "--limit shapes=N allows more");
+  return false;
 }
 
 void Builder::warn_of_unused_names(const SyntaxTree& main) {

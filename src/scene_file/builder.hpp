@@ -310,6 +310,7 @@ class Builder {
   bool spend(std::uint64_t steps, const Place& place);
   void halt(const Place& place, std::string message, std::string suggestion = {});
   void note_shape(const Place& place);
+  bool has_room_for(double shapes, const Place& place);
 
   Files& files_;
   Limits limits_;
@@ -337,6 +338,7 @@ class Builder {
   std::size_t depth_ = 0;  // of statements in statements, all kinds counted
   std::size_t include_depth_ = 0, use_depth_ = 0;
   std::uint64_t shapes_made_ = 0, lights_made_ = 0;
+  std::uint64_t built_out_ = 0;  // shapes made, were there no instances
   bool halted_ = false;
   std::optional<std::uint32_t> last_material_;
   TexturePointer last_texture_;

@@ -77,7 +77,7 @@ class ShapeStore {
 /// none.
 struct UseRecord {
   std::uint64_t count = 0;
-  std::uint64_t shapes = 0;                    ///< that the first use made
+  std::uint64_t shapes = 0;                    ///< that one use makes, all uses in it built out
   bool can_be_shared = false;                  ///< nothing but finite shapes, and enough of them
   std::shared_ptr<const SharedShapes> shared;  ///< from the second use on
 };

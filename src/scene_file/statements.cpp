@@ -33,6 +33,31 @@ PropertyType parameter_type(ValueType type) {
   }
 }
 
+// How often a loop is known to be run whatever the scene's values are: where its ends are plain numbers.
+double known_turns(const ForNode& loop) {
+  const auto is_number = [](const Expression* e) { return e->operation == Operation::kNumber; };
+  if (!is_number(loop.from) || !is_number(loop.to) || (loop.step != nullptr && !is_number(loop.step)))
+    return 0;
+  const double step = loop.step == nullptr ? 1 : loop.step->number;
+  const double turns = std::floor((loop.to->number - loop.from->number) / step + 1e-9) + 1;
+  return step != 0 && turns > 0 ? turns : 0;
+}
+
+// The shapes that these items make at least, branches and definitions left out.
+double least_shapes(std::span<const ItemNode> items, const Source* source) {
+  double shapes = 0;
+  for (const ItemNode& item : items) {
+    if (const auto* loop = std::get_if<const ForNode*>(&item)) {
+      shapes += known_turns(**loop) * least_shapes((*loop)->items, source);
+    } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
+      const KindRow* kind = find_kind(source->text((*block)->kind));
+      if (kind == nullptr || kind->block_class != BlockClass::kObject) continue;
+      shapes += kind->has_children ? least_shapes((*block)->items, source) : kind->takes_material ? 1 : 0;
+    }
+  }
+  return shapes;
+}
+
 }  // namespace
 
 void Builder::build_include(const IncludeNode& include, const Surroundings& around) {
@@ -40,7 +65,7 @@ void Builder::build_include(const IncludeNode& include, const Surroundings& arou
   if (!spend(kStepsPerInclude, place)) return;
   if (include_depth_ >= limits_.include_depth) {
     return halt(place, fmt::format("files include each other more than {} deep", limits_.include_depth),
-                "does a file include itself?");
+                "does a file include itself? --limit includes=N allows more");
   }
   // What is wrong has been told after a few turns of a loop; more of them would only take time.
   constexpr int kMostBadTurns = 100;
@@ -132,6 +157,7 @@ void Builder::build_for(const ForNode& loop, const Surroundings& around) {
         "--limit steps=N allows more");
     return;
   }
+  if (turns > 0 && !has_room_for(turns * least_shapes(loop.items, around.source), place)) return;
   auto& bindings = evaluator_.bindings();
   NameTable names;
   Surroundings inside = around;
@@ -236,7 +262,7 @@ void Builder::build_use(const std::shared_ptr<const Definition>& definition, con
   if (!spend(kStepsPerUse, place)) return;
   if (use_depth_ >= limits_.nesting) {
     return halt(place, fmt::format("uses of definitions are nested more than {} deep", limits_.nesting),
-                "a definition that uses itself needs an 'if' that ends it");
+                "a definition that uses itself needs an 'if' that ends it; --limit nesting=N allows more");
   }
   used_definitions_[definition->node] = true;
   const std::string_view name =
@@ -263,16 +289,25 @@ void Builder::build_use(const std::shared_ptr<const Definition>& definition, con
   const std::string key = use_key(owner, arguments, inside.material);
   UseRecord& record = uses_[key];
   if (++record.count == 1) {
-    const std::uint64_t shapes = shapes_made_, lights = lights_made_, endless = store_.endless_made();
+    const std::uint64_t shapes = shapes_made_, lights = lights_made_, endless = store_.endless_made(),
+                        built_out = built_out_;
     build_body(*definition, arguments, inside, place);
     UseRecord& done = uses_[key];  // the body's own uses may have moved it
+    done.shapes = built_out_ - built_out;
     done.can_be_shared =
         shapes_made_ - shapes >= kLeastToShare && lights_made_ == lights && store_.endless_made() == endless;
     return;
   }
   if (!record.can_be_shared) return build_body(*definition, arguments, inside, place);
-  if (record.shared == nullptr) record.shared = share_body(*definition, arguments, inside, key, place);
+  if (record.shared == nullptr) {
+    if (!has_room_for(static_cast<double>(record.shapes), place)) return;
+    const std::uint64_t built_out = built_out_;
+    auto shared = share_body(*definition, arguments, inside, key, place);
+    built_out_ = built_out;
+    record.shared = std::move(shared);
+  }
   note_shape(place);
+  built_out_ += record.shapes - 1;
   if (record.shared != nullptr) store_.add_instance(record.shared, inside.to_world);
 }
 
