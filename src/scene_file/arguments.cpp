@@ -108,6 +108,10 @@ class ArgumentReader {
     const bool fits = value.is_number() || (value.is_vector() && most_numbers(row_.type) > 2);
     if (!fits) {
       const std::string_view kind = describe(value.type);
+      if (value.is_boolean() && node.kind == ValueKind::kWord) {
+        wrong_type(node, text(node));
+        return false;
+      }
       wrong_type(node, node.kind == ValueKind::kExpression
                            ? std::string(kind)
                            : fmt::format("{} {}",

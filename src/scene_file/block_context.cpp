@@ -99,7 +99,12 @@ void BlockContext::report_unknown_property(Span name) {
   if (row_.placing != Placing::kNone) {
     for (const PropertyRow& row : transform_properties()) known.push_back(row.name);
   }
-  const std::string_view nearest = nearest_word(word, known);
+  std::string_view nearest = nearest_word(word, known);
+  if (nearest.empty()) {  // `rotate` of a picture: uv_rotate
+    const auto longer = std::ranges::find_if(
+        known, [&](std::string_view each) { return each.ends_with(fmt::format("_{}", word)); });
+    if (longer != known.end()) nearest = *longer;
+  }
   std::string suggestion;
   if (std::ranges::find(row_.words_to_come, word) != row_.words_to_come.end()) {
     builder_.diagnostics_.error(place(name), fmt::format("'{}' can't be shown yet", word),
@@ -115,7 +120,7 @@ void BlockContext::report_unknown_property(Span name) {
   } else {
     suggestion = fmt::format("it has {}", fmt::join(known, ", "));
   }
-  builder_.diagnostics_.error(place(name), fmt::format("{} has no property '{}'", row_.name, word),
+  builder_.diagnostics_.error(place(name), fmt::format("{} has no property '{}'", called(row_), word),
                               suggestion);
 }
 
@@ -161,6 +166,7 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
   if (!accept(*row, place(whole),
               place({property.values.empty() ? whole.begin : property.values.front().span.begin, whole.end})))
     return false;
+  if (parameters_ == nullptr && misses_texture(*row, property)) return false;
   if (row->store_texture != nullptr && parameters_ == nullptr) {
     if (const auto is_sound = fill_texture_item(*row, property, input)) return *is_sound;
   }
@@ -211,6 +217,12 @@ bool BlockContext::fill_block(const BlockNode& block, void* input) {
     return accept(*row, place(block.header()), place(block.header())) &&
            fill_texture_block(*row, block, input);
   }
+  const bool is_texture = row != nullptr && row->type != PropertyType::kMaterial && block.words.size() == 1 &&
+                          find_texture_kind(around_.source->text(block.words[0])) != nullptr;
+  if (is_texture) {
+    report_no_texture(*row, block.words[0]);
+    return false;
+  }
   if (row != nullptr && (row->type != PropertyType::kMaterial || !row_.has_children)) {
     const bool names_material = row->type == PropertyType::kMaterial;
     builder_.diagnostics_.error(
@@ -223,9 +235,12 @@ bool BlockContext::fill_block(const BlockNode& block, void* input) {
     builder_.build_block(block, around_);
     return true;
   }
-  if (find_kind(word) != nullptr || builder_.find_definition(block.kind_name, around_) != nullptr) {
-    builder_.diagnostics_.error(place(block.header()), fmt::format("a {} can't hold a {}", row_.name, word),
-                                "put both into a group");
+  const KindRow* kind = find_kind(word);
+  if (kind != nullptr || builder_.find_definition(block.kind_name, around_) != nullptr) {
+    const bool is_setting = kind != nullptr && kind->block_class == BlockClass::kSetting;
+    builder_.diagnostics_.error(
+        place(block.header()), fmt::format("a {} can't hold a {}", row_.name, word),
+        is_setting ? fmt::format("'{}' stands at the top of the scene", word) : "put both into a group");
   } else {
     report_unknown_property(block.kind);
   }
@@ -285,7 +300,7 @@ bool BlockContext::check_required() {
     if (example.empty()) example = fmt::format("{} {}", row.name, example_value(row));
   }
   if (missing.empty()) return true;
-  builder_.diagnostics_.error(header(), fmt::format("{} has no {}", row_.name, fmt::join(missing, ", ")),
+  builder_.diagnostics_.error(header(), fmt::format("{} has no {}", called(row_), fmt::join(missing, ", ")),
                               example);
   return false;
 }

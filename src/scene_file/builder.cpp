@@ -36,6 +36,14 @@ Place place_of(const ItemNode& item, const Surroundings& around) {
   return {around.source, span};
 }
 
+std::vector<std::string_view> variants_of(std::string_view kind) {
+  std::vector<std::string_view> variants;
+  for (const KindRow& row : all_kinds()) {
+    if (row.name == kind && !row.variant.empty()) variants.push_back(row.variant);
+  }
+  return variants;
+}
+
 }  // namespace
 
 Builder::Builder(Files& files, const Limits& limits, const Moment& moment, KeptShapes& kept,
@@ -145,6 +153,11 @@ void Builder::build_stray_property(const PropertyNode& property, const Surroundi
 void Builder::report_unknown_kind(const BlockNode& block, const Surroundings& around) {
   const std::string_view word = around.source->text(block.kind);
   if (!diagnostics_.is_listening()) return diagnostics_.error({around.source, block.kind}, {});
+  if (may_have_variant(word)) {
+    return diagnostics_.error({around.source, block.kind},
+                              fmt::format("'{}' needs a word behind it that says which", word),
+                              fmt::format("known are {}", fmt::join(variants_of(word), ", ")));
+  }
   std::vector<std::string_view> known;
   for (const KindRow& row : all_kinds()) known.push_back(row.name);
   for (std::size_t i = 0; i < definitions_.height(); ++i) {
@@ -170,10 +183,7 @@ void Builder::report_unknown_kind(const BlockNode& block, const Surroundings& ar
 void Builder::report_unknown_variant(const BlockNode& block, const Surroundings& around) {
   const std::string_view kind = around.source->text(block.kind);
   const std::string_view word = around.source->text(block.words[0]);
-  std::vector<std::string_view> known;
-  for (const KindRow& row : all_kinds()) {
-    if (row.name == kind && !row.variant.empty()) known.push_back(row.variant);
-  }
+  const std::vector<std::string_view> known = variants_of(kind);
   const std::string_view nearest = nearest_word(word, known);
   diagnostics_.error({around.source, block.words[0]}, fmt::format("there is no {} '{}'", kind, word),
                      nearest.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
@@ -200,11 +210,8 @@ const KindRow* Builder::resolve_kind(const BlockNode& block, const Surroundings&
     return variant;
   }
   // `light lamp { … }` has a name; `light spto { … }` has a slip.
-  std::vector<std::string_view> variants;
-  for (const KindRow& row : all_kinds()) {
-    if (row.name == word && !row.variant.empty()) variants.push_back(row.variant);
-  }
-  if (block.words.size() < 2 && nearest_word(word_at(0), variants).empty() && plain != nullptr) return plain;
+  if (block.words.size() < 2 && nearest_word(word_at(0), variants_of(word)).empty() && plain != nullptr)
+    return plain;
   report_unknown_variant(block, around);
   return nullptr;
 }

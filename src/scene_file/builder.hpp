@@ -150,6 +150,9 @@ class BlockContext {
   bool fill_items(void* input);
   bool fill_item(const PropertyNode& property, void* input);
   bool fill_block(const BlockNode& block, void* input);
+  bool misses_texture(const PropertyRow& row, const PropertyNode& property);
+  void report_no_texture(const PropertyRow& row, Span span);
+  bool report_bad_texture(const PropertyRow& row, const PropertyNode& property);
   /// Nothing where the property has no texture but a value like any other.
   std::optional<bool> fill_texture_item(const PropertyRow& row, const PropertyNode& property, void* input);
   bool fill_texture_block(const PropertyRow& row, const BlockNode& block, void* input);
@@ -157,6 +160,7 @@ class BlockContext {
   bool fill_expression(const PropertyRow& row, const PropertyNode& property, void* input);
   const Expression* expression_at_point(const PropertyNode& property);
   bool store_texture(const PropertyRow& row, const BuiltTexture& texture, void* input);
+  const KindRow* texture_named(const PropertyNode& property);
   const KindRow* find_texture_row(Span word);
   template <class Read>
   auto read_picture_file(std::string_view property, const std::string& file, const Read& read)

@@ -9,6 +9,7 @@
 #include "core/numeric.hpp"
 #include "core/suggest.hpp"
 #include "scene_file/colors.hpp"
+#include "scene_file/expression_compiler.hpp"
 #include "scene_file/lexer.hpp"
 
 namespace raytracer::scene_file {
@@ -161,6 +162,9 @@ std::string Evaluator::suggestion_for(std::string_view name, const Visibility& v
     if (visibility.shows(i)) known.push_back(names_.text(bindings_.at(i).name));
   }
   std::string_view nearest = nearest_word(name, known);
+  if (nearest.empty() && is_point_name(name)) {
+    return fmt::format("{} exists only in materials, where a texture may stand", name);
+  }
   if (nearest.empty()) nearest = nearest_word(name, color_names());
   return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
 }

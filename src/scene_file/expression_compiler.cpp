@@ -448,6 +448,10 @@ std::size_t count_nodes(const Expression& expression, std::size_t most) {
 
 }  // namespace
 
+bool is_point_name(std::string_view name) {
+  return std::ranges::find(kPointNames, name, &PointName::name) != std::end(kPointNames);
+}
+
 bool mentions_point(const Expression& expression, Evaluator& evaluator, const Visibility& visibility) {
   std::vector<const Expression*> open = {&expression};
   while (!open.empty()) {

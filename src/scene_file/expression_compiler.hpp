@@ -13,6 +13,9 @@ namespace raytracer::scene_file {
 /// and `v`, numbers. A `let` or parameter of such a name hides it.
 bool mentions_point(const Expression& expression, Evaluator& evaluator, const Visibility& visibility);
 
+/// Whether it is one of these names.
+bool is_point_name(std::string_view name);
+
 struct CompiledExpression {
   ExpressionProgram program;
   bool depends_on_time = false;

@@ -132,6 +132,10 @@ const SyntaxTree* Files::add_main(std::string name, std::string path, std::strin
 
 std::string Files::find(const std::string& file, const Place& from, std::string_view what,
                         Diagnostics& diagnostics) const {
+  if (file.empty()) {
+    diagnostics.error(from, "the name of a file is empty", fmt::format("it names {}", what));
+    return {};
+  }
   const fs::path folder = fs::path(from.source->path()).parent_path();
   std::string path = canonical((folder / file).string());
   if (path.empty()) {

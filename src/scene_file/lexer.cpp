@@ -134,12 +134,14 @@ Token Lexer::lex_number() {
     while (is_word_character(at(position_)) || at(position_) == '.') ++position_;
     const std::string_view written = source_->text({begin, position_});
     const std::size_t cross = written.find('x');
-    const bool is_size = cross != std::string_view::npos && cross > 0 && is_digit(written[cross - 1]) &&
-                         cross + 1 < written.size();
+    const bool is_hexadecimal = written.starts_with("0x") || written.starts_with("0X");
+    const bool is_size = !is_hexadecimal && cross != std::string_view::npos && cross > 0 &&
+                         is_digit(written[cross - 1]) && cross + 1 < written.size();
     error({begin, position_}, fmt::format("'{}' is not a number", written),
           is_size ? fmt::format("two numbers have a space between them: {} {}", written.substr(0, cross),
                                 written.substr(cross + 1))
-                  : "numbers look like 1, -0.5 or 1.5e-3");
+          : is_hexadecimal ? "numbers are decimal: 16, not 0x10"
+                           : "numbers look like 1, -0.5 or 1.5e-3");
     return token(TokenType::kBad, begin);
   }
   Token result = token(TokenType::kNumber, begin);
@@ -169,8 +171,28 @@ Token Lexer::lex_string() {
   return token(TokenType::kString, begin);
 }
 
+// Prose behind a '#': words after a blank, or in a line that begins with it one that has no colour's digits.
+bool Lexer::is_foreign_comment(std::uint32_t begin) const {
+  std::uint32_t word = begin + 1;
+  while (at(word) == ' ' || at(word) == '\t' || at(word) == '#') ++word;
+  if (!is_letter(at(word)) && !is_foreign(at(word))) return false;
+  if (word > begin + 1) return true;
+  std::uint32_t end = word;
+  while (is_word_character(at(end))) ++end;
+  const bool is_hexadecimal =
+      text_.substr(word, end - word).find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
+  std::uint32_t before = begin;
+  while (before > 0 && is_blank(text_[before - 1]) && text_[before - 1] != '\n') --before;
+  return !is_hexadecimal && (before == 0 || text_[before - 1] == '\n');
+}
+
 Token Lexer::lex_color() {
   const std::uint32_t begin = position_++;
+  if (is_foreign_comment(begin)) {
+    position_ = static_cast<std::uint32_t>(std::min(text_.find_first_of("\r\n", begin), text_.size()));
+    error({begin, begin + 1}, "'#' begins a colour, no comment", "comments begin with //");
+    return token(TokenType::kBad, begin);
+  }
   while (is_word_character(at(position_))) ++position_;
   const std::uint32_t digits = position_ - begin - 1;
   if (!is_color(source_->text({begin, position_}))) {

@@ -59,6 +59,7 @@ class Lexer {
   Token lex_word();
   Token lex_number();
   Token lex_string();
+  bool is_foreign_comment(std::uint32_t begin) const;
   Token lex_color();
   Token lex_operator(LexMode mode);
   Token unexpected_character(LexMode mode);

@@ -78,9 +78,11 @@ class Parser {
   bool take_new_name(Span keyword, std::string_view what, Span& span, NameId& name);
   const Expression* parse_clause(std::string_view keyword, Span statement);
   ValueNode take_value();
-  void report_stray();
+  void report_stray(const std::string& hint = {});
   void skip_to_statement();
   void skip_nested_braces();
+  void skip_parentheses();
+  std::string plain_form(Span name) const;
 
   std::unique_ptr<SyntaxTree> tree_;
   TokenReader tokens_;
@@ -173,6 +175,7 @@ void Parser::parse_bad_block(std::vector<ItemNode>& items) {
   tokens_.error(kind, fmt::format("'{}' needs braces", tokens_.text(kind)),
                 fmt::format("{} {{ … }}", tokens_.text(kind)));
   tokens_.advance();
+  if (tokens_.is(TokenType::kOpenParenthesis)) return skip_parentheses();
   // What follows are its properties, up to a '}' or the next block.
   tokens_.mute(true);
   while (tokens_.is(TokenType::kWord) && words_before_brace() == 0 && !is_statement(tokens_.text()) &&
@@ -324,7 +327,7 @@ const PropertyNode* Parser::parse_property(Context context) {
     if (is_stray && !is_bad) {
       values.push_back({});
       values.back().span = tokens_.current().span;
-      report_stray();
+      report_stray(values.size() == 1 ? plain_form(property.name) : std::string());
     } else if (current_is_value() || is_stray || is_glued) {
       values.push_back(take_value());
     } else {
@@ -585,7 +588,7 @@ bool Parser::parse_parameter(std::vector<ParameterNode>& parameters) {
 }
 
 // Something that can't stand where an item begins, or among values.
-void Parser::report_stray() {
+void Parser::report_stray(const std::string& hint) {
   const Token stray = tokens_.current();
   switch (stray.type) {
     case TokenType::kBad:
@@ -599,8 +602,9 @@ void Parser::report_stray() {
       while (tokens_.is(TokenType::kOperator) || tokens_.is(TokenType::kCloseParenthesis)) tokens_.advance();
       tokens_.error({stray.span.begin, tokens_.previous_end()},
                     fmt::format("unexpected '{}'", tokens_.text(stray.span)),
-                    separates ? "values are separated by spaces alone"
-                              : "a computed value stands in parentheses: (2 * r)");
+                    !hint.empty() ? hint
+                    : separates   ? "values are separated by spaces alone"
+                                  : "a computed value stands in parentheses: (2 * r)");
       return;
     }
     default: {
@@ -624,6 +628,38 @@ void Parser::skip_nested_braces() {
     if (tokens_.is(TokenType::kCloseBrace)) --open;
     tokens_.advance();
   } while (open > 0 && !tokens_.is(TokenType::kEnd));
+}
+
+// Silently behind the ')' that belongs to the current '('.
+void Parser::skip_parentheses() {
+  tokens_.mute(true);
+  int open = 0;
+  do {
+    if (tokens_.is(TokenType::kOpenParenthesis)) ++open;
+    if (tokens_.is(TokenType::kCloseParenthesis)) --open;
+    tokens_.advance();
+  } while (open > 0 && !tokens_.is(TokenType::kEnd));
+  tokens_.mute(false);
+}
+
+// What `radius: 1` and `center <0, 1, 0>` are here, where other languages' signs stand behind a property's
+// name; empty where it can't be said.
+std::string Parser::plain_form(Span name) const {
+  if (!tokens_.is_operator(":") && !tokens_.is_operator("<") && !tokens_.is_operator("=")) return {};
+  constexpr int kMostValues = 4;
+  std::string values;
+  int count = 0;
+  Lexer ahead = tokens_.ahead();
+  for (Token token = ahead.next(LexMode::kValues); count < kMostValues;
+       token = ahead.next(LexMode::kValues)) {
+    const bool is_value = token.type == TokenType::kNumber || token.type == TokenType::kString ||
+                          token.type == TokenType::kColor || (token.type == TokenType::kWord && count == 0);
+    if (!is_value && token.type != TokenType::kOperator) break;
+    if (!is_value) continue;
+    values += fmt::format(" {}", tokens_.text(token.span));
+    ++count;
+  }
+  return count == 0 ? std::string() : fmt::format("{}{}", tokens_.text(name), values);
 }
 
 }  // namespace

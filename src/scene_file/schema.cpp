@@ -72,6 +72,12 @@ bool may_have_variant(std::string_view kind) {
                              [&](const KindRow& row) { return row.name == kind && !row.variant.empty(); });
 }
 
+std::string called(const KindRow& kind) {
+  if (kind.variant.empty()) return std::string(kind.name);
+  return kind.block_class == BlockClass::kTexture ? std::string(kind.variant)
+                                                  : fmt::format("{} {}", kind.name, kind.variant);
+}
+
 const PropertyRow* find_property(const KindRow& kind, std::string_view name) {
   const auto find_in = [&](std::span<const PropertyRow> rows) -> const PropertyRow* {
     const auto row = std::ranges::find(rows, name, &PropertyRow::name);

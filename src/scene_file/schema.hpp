@@ -184,6 +184,9 @@ const PropertyRow& material_property();
 const KindRow* find_kind(std::string_view name, std::string_view variant = {});
 bool may_have_variant(std::string_view kind);
 
+/// As messages call it: sphere, sky image, and of a texture the word alone.
+std::string called(const KindRow& kind);
+
 /// What the kinds of textures are variants of: `texture checker oak { … }`.
 inline constexpr std::string_view kTextureKind = "texture";
 /// The kind of texture of that name, as in `color checker { … }`; null where there is none.

@@ -75,6 +75,66 @@ const KindRow* BlockContext::find_texture_row(Span word) {
   return nullptr;
 }
 
+// The kind of texture that a property's value begins with; null where it is something else.
+const KindRow* BlockContext::texture_named(const PropertyNode& property) {
+  const auto& values = property.values;
+  if (values.empty() || values[0].kind != ValueKind::kWord) return nullptr;
+  if (builder_.evaluator_.is_bound(values[0].name, around_.frame->values)) return nullptr;
+  const std::string_view word = around_.source->text(values[0].span);
+  return named_color(word) ? nullptr : find_texture_kind(word);
+}
+
+// Whether a property that takes no texture is given one, which is then reported.
+bool BlockContext::misses_texture(const PropertyRow& row, const PropertyNode& property) {
+  const bool takes_words = row.type == PropertyType::kWord || row.type == PropertyType::kName ||
+                           row.type == PropertyType::kMaterial || row.type == PropertyType::kStop;
+  if (row.store_texture != nullptr || takes_words || property.values.empty()) return false;
+  const bool is_of_surface =
+      row_.block_class == BlockClass::kMaterial || row_.block_class == BlockClass::kTexture;
+  const bool has_texture =
+      texture_named(property) != nullptr || (is_of_surface && expression_at_point(property) != nullptr);
+  if (has_texture) report_no_texture(row, {property.values.front().span.begin, property.whole().end});
+  return has_texture;
+}
+
+void BlockContext::report_no_texture(const PropertyRow& row, Span span) {
+  builder_.diagnostics_.error(place(span),
+                              fmt::format("'{}' takes no texture, but {}", row.name, describe_type(row)),
+                              fmt::format("{} {}", row.name, example_value(row)));
+}
+
+// `color image 5`, `color checker`, `color u`: what can't be a value, and not quite a texture either. False
+// where there is nothing of that kind.
+bool BlockContext::report_bad_texture(const PropertyRow& row, const PropertyNode& property) {
+  const auto& values = property.values;
+  const auto report = [&](Span span, const std::string& message, const std::string& suggestion) {
+    builder_.diagnostics_.error(place(span), message, suggestion);
+    return true;
+  };
+  if (const KindRow* kind = texture_named(property)) {
+    const bool needs_file = find_file_property(*kind) != nullptr;
+    if (!needs_file || values.size() == 1) {
+      return report(values[0].span, fmt::format("'{}' needs braces", kind->variant),
+                    fmt::format("{} {} {{ … }}", row.name, kind->variant));
+    }
+    const bool has_file = values[1].kind == ValueKind::kString;
+    const Span rest = {values[has_file ? 2 : 1].span.begin, values.back().span.end};
+    return report(
+        rest,
+        fmt::format("'{}' takes the name of one file, found {}", kind->variant, around_.source->text(rest)),
+        values[1].kind == ValueKind::kWord ? fmt::format("{} {} {{ file {} }}", row.name, kind->variant,
+                                                         around_.source->text(values[1].span))
+                                           : fmt::format("{} {} \"file\"", row.name, kind->variant));
+  }
+  const bool is_point = values.size() == 1 && values[0].kind == ValueKind::kWord &&
+                        is_point_name(around_.source->text(values[0].span)) &&
+                        !builder_.evaluator_.is_bound(values[0].name, around_.frame->values);
+  if (!is_point) return false;
+  const std::string_view word = around_.source->text(values[0].span);
+  return report(values[0].span, fmt::format("'{}' is computed at each point: it needs parentheses", word),
+                fmt::format("{} ({})", row.name, word));
+}
+
 std::optional<bool> BlockContext::fill_texture_item(const PropertyRow& row, const PropertyNode& property,
                                                     void* input) {
   const auto& values = property.values;
@@ -87,12 +147,8 @@ std::optional<bool> BlockContext::fill_texture_item(const PropertyRow& row, cons
     if (const BuiltTexture* texture = builder_.find_texture(word, around_)) {
       return store_texture(row, *texture, input);
     }
-    if (find_texture_kind(word) != nullptr && !named_color(word)) {
-      builder_.diagnostics_.error(place(values[0].span), fmt::format("'{}' needs braces", word),
-                                  fmt::format("{} {} {{ … }}", row.name, word));
-      return false;
-    }
   }
+  if (report_bad_texture(row, property)) return false;
   if (expression_at_point(property) != nullptr) return fill_expression(row, property, input);
   if (!row.is_texture_only || values.empty()) return std::nullopt;
   if (std::ranges::none_of(values, [](const ValueNode& v) { return v.kind == ValueKind::kBad; })) {

@@ -156,6 +156,28 @@ SLIPS = [
     # --- without end ---
     ("a definition that uses itself", "define d { sphere { } «d» { } }\nd { }", ["deep", "if"]),
     ("a loop too long", "«for i» from 0 to 1e18 { sphere { } }", ["turns"]),
+    ("too many uses inside each other", "define d (n 300) { sphere { } if n > 0 { «d { n (n - 1) } } }\nd { }",
+     ["--limit nesting=N"]),
+    ("too many shapes", "«for i» from 1 to 60000000 { sphere { } }", ["50000000 shapes", "--limit shapes=N"]),
+    ("too many shapes in loops", "«for i» from 1 to 8000 { group { for j from 1 to 8000 step 1 { cube { } } } }",
+     ["--limit shapes=N"]),
+    # --- as other languages have it ---
+    ("a comment of Python's", "«#» a comment { in \"Python's way\nsphere { }", ["comments begin with //"]),
+    ("a comment of Python's behind a value", "sphere { radius 1 «#» the { size\n}", ["comments begin with //"]),
+    ("a comment without a blank", "«#»comment of a sphere", ["comments begin with //"]),
+    ("a colour of five digits", "background { color «#ff880» }", ["#ff8800"]),
+    ("parentheses for braces", "«sphere» ( radius 1 material { color red } )", ["sphere { … }"]),
+    ("a colon", "sphere { radius«:» 1 }", ["radius 1"]),
+    ("colons and commas", "sphere { center«:» 0, 1, 0 }", ["center 0 1 0"]),
+    ("angle brackets", "sphere { center «<»0,-1,0> radius 1 }", ["center 0 -1 0"]),
+    ("an equals sign", "sphere { radius «=» 1 }", ["radius 1"]),
+    ("a hexadecimal number", "sphere { radius «0x10» }", ["not a number", "decimal"]),
+    ("true for a number", "mesh { vertices 0 0 0 1 0 0 0 1 0 faces 0 1 2 smooth «true» }", ["found true", "smooth 1"]),
+    ("a setting in a shape", "sphere { «animation» { duration 2 } }", ["'animation' stands at the top of the scene"]),
+    ("a shape in a shape", "sphere { «cube» { } }", ["put both into a group"]),
+    ("a sky without a kind", "«sky» { }", ["'sky'", "known are image, gradient, sun"]),
+    ("a file without a name", "sphere { material { color image «\"\"» } }", ["the name of a file is empty"]),
+    ("a picture for a background", "background { color «image \"a.png\"» }", ["'color' takes no texture, but a colour"]),
 ]
 
 def unmarked(marked):
@@ -294,6 +316,7 @@ class Endless(unittest.TestCase):
         self.refused("for i from 0 to 9 { include \"main.txt\" }\n")
         self.refused("group { include \"main.txt\" }\n")
         self.refused("include \"a.txt\"", a="include \"main.txt\"")
+        self.assertIn(b"--limit includes=N", program.run("check", "main.txt", cwd=self.folder).stderr)
 
     def test_a_definition_that_includes_itself(self):
         self.refused("include \"a.txt\"\nd { }\n", a="define d { include \"b.txt\" }\n", b="include \"a.txt\"\nd { }\n")
