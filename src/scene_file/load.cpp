@@ -222,7 +222,7 @@ LoadedScene load(std::string text, const std::string& name, const std::string& p
         std::make_shared<ScenesOverTime>(scene_text, std::move(draft.scene), loaded.depends_on_time);
     loaded.scene_at = [scenes](double time) { return scenes->at(time); };
     loaded.moment_at = [scenes](double time) { return scenes->moment(time); };
-    loaded.json_at = [scenes](double time, const std::string& folder) { return scenes->json(time, folder); };
+    loaded.json_at = [scenes](double time, const std::string& from) { return scenes->json(time, from); };
     loaded.files_named = [scene_text] {
       std::vector<std::string> given;
       for (const Setting& setting : scene_text->options.settings) given.push_back(setting.value);

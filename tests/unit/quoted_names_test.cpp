@@ -26,7 +26,9 @@ TEST_CASE("all names that a text may ever mean are known", "[pictures]") {
   const Source source("scene", "", R"(
     let chosen = t > 1 ? "a.png" : "b.png"
     if t > 1 { include "part.txt" } else if t > 2 { sky image "c.exr" } else { include "other.txt" }
-    define d (file "d.png") { sphere { material { color image { file (max(t, 1) > 1 ? "e.png" : "a.png") } } } }
+    define d (file "d.png") {
+      sphere { material { color image { file (max(t, 1) > 1 ? "e.png" : "a.png") } } }
+    }
     // "comment.png"
     for i from 0 to 2 { d { file "f.png" } })");
   Names names;
