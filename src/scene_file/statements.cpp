@@ -1,6 +1,7 @@
 // The statements: include, let, for, if, define, and the use of what was defined.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/suggest.hpp"
@@ -33,30 +34,63 @@ PropertyType parameter_type(ValueType type) {
   }
 }
 
-// How often a loop is known to be run whatever the scene's values are: where its ends are plain numbers.
-double known_turns(const ForNode& loop) {
-  const auto is_number = [](const Expression* e) { return e->operation == Operation::kNumber; };
-  if (!is_number(loop.from) || !is_number(loop.to) || (loop.step != nullptr && !is_number(loop.step)))
-    return 0;
-  const double step = loop.step == nullptr ? 1 : loop.step->number;
-  const double turns = std::floor((loop.to->number - loop.from->number) / step + 1e-9) + 1;
-  return step != 0 && turns > 0 ? turns : 0;
-}
+// Counts the shapes that a loop's text makes at least, before it is run: branches, definitions and files are
+// left out, as are loops whose ends are known only inside of it.
+class LeastShapes {
+ public:
+  LeastShapes(Evaluator& evaluator, const Source& source, const Visibility& visible)
+      : evaluator_(evaluator), source_(source), visible_(visible) {}
 
-// The shapes that these items make at least, branches and definitions left out.
-double least_shapes(std::span<const ItemNode> items, const Source* source) {
-  double shapes = 0;
-  for (const ItemNode& item : items) {
-    if (const auto* loop = std::get_if<const ForNode*>(&item)) {
-      shapes += known_turns(**loop) * least_shapes((*loop)->items, source);
-    } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
-      const KindRow* kind = find_kind(source->text((*block)->kind));
-      if (kind == nullptr || kind->block_class != BlockClass::kObject) continue;
-      shapes += kind->has_children ? least_shapes((*block)->items, source) : kind->takes_material ? 1 : 0;
-    }
+  /// In one turn.
+  double of(const ForNode& loop) {
+    inner_names_.push_back(loop.name);
+    return of(loop.items);
   }
-  return shapes;
-}
+
+ private:
+  double of(std::span<const ItemNode> items) {
+    double shapes = 0;
+    for (const ItemNode& item : items) {
+      if (const auto* inner = std::get_if<const ForNode*>(&item)) {
+        const double turns = turns_of(**inner);
+        shapes += turns > 0 ? turns * of(**inner) : 0;
+      } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
+        const KindRow* kind = find_kind(source_.text((*block)->kind));
+        if (kind == nullptr || kind->block_class != BlockClass::kObject) continue;
+        shapes += kind->has_children ? of((*block)->items) : kind->takes_material ? 1 : 0;
+      } else if (const auto* let = std::get_if<const LetNode*>(&item)) {
+        inner_names_.push_back((*let)->name);
+      } else if (std::holds_alternative<const IncludeNode*>(item)) {
+        return shapes;  // what follows may use its names
+      }
+    }
+    return shapes;
+  }
+
+  double turns_of(const ForNode& loop) {
+    const double from = number(loop.from), to = number(loop.to), step = loop.step ? number(loop.step) : 1;
+    const double turns = std::floor((to - from) / step + 1e-9) + 1;
+    return std::isfinite(turns) ? turns : 0;
+  }
+
+  // Not a number where it is not known yet.
+  double number(const Expression* e) {
+    const Value value = uses_inner_name(*e) ? Value{} : evaluator_.evaluate(*e, source_, visible_);
+    return value.is_number() ? value.x() : std::nan("");
+  }
+
+  bool uses_inner_name(const Expression& e) const {
+    return (e.operation == Operation::kName &&
+            std::ranges::find(inner_names_, e.name) != inner_names_.end()) ||
+           std::ranges::any_of(e.arguments,
+                               [this](const Expression* each) { return uses_inner_name(*each); });
+  }
+
+  Evaluator& evaluator_;
+  const Source& source_;
+  const Visibility& visible_;
+  std::vector<NameId> inner_names_;
+};
 
 }  // namespace
 
@@ -157,7 +191,8 @@ void Builder::build_for(const ForNode& loop, const Surroundings& around) {
         "--limit steps=N allows more");
     return;
   }
-  if (turns > 0 && !has_room_for(turns * least_shapes(loop.items, around.source), place)) return;
+  LeastShapes least(evaluator_, *around.source, around.frame->values);
+  if (turns > 1 && !has_room_for(turns * least.of(loop), place)) return;
   auto& bindings = evaluator_.bindings();
   NameTable names;
   Surroundings inside = around;

@@ -161,6 +161,8 @@ SLIPS = [
     ("too many shapes", "«for i» from 1 to 60000000 { sphere { } }", ["50000000 shapes", "--limit shapes=N"]),
     ("too many shapes in loops", "«for i» from 1 to 8000 { group { for j from 1 to 8000 step 1 { cube { } } } }",
      ["--limit shapes=N"]),
+    ("too many shapes by names", "let n = 8000\n«for i» from 1 to n { let k = n for j from n to 1 step -1 { cube { } } }",
+     ["--limit shapes=N"]),
     # --- as other languages have it ---
     ("a comment of Python's", "«#» a comment { in \"Python's way\nsphere { }", ["comments begin with //"]),
     ("a comment of Python's behind a value", "sphere { radius 1 «#» the { size\n}", ["comments begin with //"]),
