@@ -7,8 +7,8 @@ import sys
 import time
 
 # Linux counts the memory of the process that forks as the child's first peak, so whoever starts what is measured has to
-# be tiny, which Python is not: a shell is. It leaves the child behind, to be adopted by this process, and the child waits
-# for a line before it becomes the command, so that the clock does not see the shell.
+# be tiny, which Python is not: a shell is. It leaves the child behind, to be adopted by this process, and the child
+# waits for a line before it becomes the command, so that the clock does not see the shell.
 SPAWN = 'exec 3<&0; { read -r go <&3; exec "$@" </dev/null 2>/dev/null 3<&-; } & echo $! >&2'
 PR_SET_CHILD_SUBREAPER = 36  # prctl(2)
 
