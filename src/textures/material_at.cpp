@@ -6,6 +6,8 @@
 namespace raytracer {
 namespace {
 
+constexpr float kBrightest = 1e30f;  // beyond it products of colours are no numbers any more
+
 // What is not a number becomes `lowest`.
 float limited(float value, float lowest, float highest) {
   return value > lowest ? std::min(value, highest) : lowest;
@@ -32,7 +34,6 @@ MaterialValues material_at(const Material& material, const TexturePoint& point) 
   MaterialValues result = material;
   if (!material.textures) return result;
   const MaterialTextures& textures = *material.textures;
-  constexpr float kBrightest = 1e30f;  // beyond it products of colours are no numbers any more
   if (textures.color) result.color = limited(textures.color->at(point), 0, 1);
   if (textures.emission) result.emission = limited(textures.emission->at(point), 0, kBrightest);
   look_up(textures.shininess, point, 0, result.shininess);
@@ -51,6 +52,12 @@ float alpha_at(const Material& material, const TexturePoint& point) {
   float alpha = material.alpha;
   if (material.textures) look_up(material.textures->alpha, point, 0, alpha);
   return alpha;
+}
+
+Color3f emitted_at(const Material& material, const TexturePoint& point) {
+  const bool is_textured = material.textures != nullptr && material.textures->emission != nullptr;
+  const Color3f emission = is_textured ? material.textures->emission->at(point) : material.emission;
+  return alpha_at(material, point) * limited(emission, 0, kBrightest);
 }
 
 namespace {
