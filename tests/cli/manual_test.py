@@ -114,7 +114,7 @@ class Coordinates(unittest.TestCase):
                 for value, expected in zip(found, map(float, uv)):
                     self.assertAlmostEqual(value, expected, 4)
                 checked += 1
-        self.assertEqual(checked, 12)
+        self.assertEqual(checked, 13)
 
 
 class Grammar(unittest.TestCase):
