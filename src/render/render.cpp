@@ -139,6 +139,8 @@ RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pi
   cone.aside_direction = middle.direction - ray.direction;
   cone.edges = scene.camera().differential(across, down, lens, static_cast<double>(share.edge) / image.width,
                                            static_cast<double>(share.edge) / image.height);
+  constexpr int kFew = 16;
+  cone.is_coarse = samples < kFew;
   cone.width = glm::length(cone.edges.origin_dx);
   cone.spread = glm::length(cone.edges.direction_dx);
   return cone;

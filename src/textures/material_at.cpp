@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textures/averaged.hpp"
+
 namespace raytracer {
 namespace {
 
@@ -25,7 +27,7 @@ float number_of(const Color3f& color) {
 }
 
 void look_up(const TexturePointer& texture, const TexturePoint& point, float lowest, float& value) {
-  if (texture) value = limited(number_of(texture->at(point)), lowest, 1);
+  if (texture) value = limited(number_of(averaged(*texture, point)), lowest, 1);
 }
 
 }  // namespace
@@ -34,8 +36,8 @@ MaterialValues material_at(const Material& material, const TexturePoint& point) 
   MaterialValues result = material;
   if (!material.textures) return result;
   const MaterialTextures& textures = *material.textures;
-  if (textures.color) result.color = limited(textures.color->at(point), 0, 1);
-  if (textures.emission) result.emission = limited(textures.emission->at(point), 0, kBrightest);
+  if (textures.color) result.color = limited(averaged(*textures.color, point), 0, 1);
+  if (textures.emission) result.emission = limited(averaged(*textures.emission, point), 0, kBrightest);
   look_up(textures.shininess, point, 0, result.shininess);
   look_up(textures.roughness, point, 0, result.roughness);
   look_up(textures.metallic, point, 0, result.metallic);
