@@ -51,6 +51,37 @@ def raytracer_shape(shape):
             return f"cube {{ center {numbers(*shape.center)} size {numbers(shape.size)}{turn}"
 
 
+# --- the yardstick's ---------------------------------------------------------------------------------------------
+
+def to_limit(world, folder):
+    """Kinds with plain numbers; cubes are six quads, and what has one material stands together. None for a world with
+    meshes that are not in their own place, which it does not know."""
+    if any(shape.places != Mesh.places for shape in world.shapes if isinstance(shape, Mesh)):
+        return None
+    lines = [
+        f"picture {numbers(*world.size, world.samples, world.bounces)}",
+        f"camera {numbers(*world.camera, *world.look_at, *world.up, world.vertical_fov)}",
+        f"background {numbers(*world.background)}",
+    ]
+    lines.extend(f"lamp {numbers(*light.position, 255 * light.strength, light.fades)}" for light in world.lights)
+    for material in dict.fromkeys(shape.material for shape in world.shapes):
+        lines.append(f"surface {numbers(*material.color, material.shininess)}")
+        lines.extend(line for shape in world.shapes if shape.material == material for line in limit_shape(shape, folder))
+    return "\n".join(lines) + "\n"
+
+
+def limit_shape(shape, folder):
+    match shape:
+        case Sphere():
+            return [f"sphere {numbers(*shape.center, shape.radius)}"]
+        case Quad():
+            return [f"quad {numbers(*shape.origin, *shape.width, *shape.height)}"]
+        case Cube():
+            return [line for face in faces(shape) for line in limit_shape(face, folder)]
+        case Mesh():
+            return [f"mesh {knots.file(shape.triangles, folder)}"]
+
+
 # --- POV-Ray ----------------------------------------------------------------------------------------------------
 
 def to_povray(world, folder):
@@ -202,7 +233,7 @@ def tachyon_quad(quad, texture):
 
 
 def faces(cube):
-    """The six squares of a turned cube, which Tachyon's boxes can't be."""
+    """The six squares of a cube, for Tachyon, whose boxes can't be turned, and for the yardstick."""
     turn, size = math.radians(cube.turn), cube.size
     edges = ((size * math.cos(turn), 0, -size * math.sin(turn)), (0, size, 0),
              (size * math.sin(turn), 0, size * math.cos(turn)))

@@ -102,6 +102,7 @@ struct Footprint {
   /// From the hit to the middle of what the ray stands for, so that samples spread over a pixel average all
   /// of it, and none of it twice.
   Vector3f aside{0};
+  bool is_coarse = false;  ///< few rays share the pixel that is averaged
 };
 
 /// Immutable: any number of threads may ask it at once.

@@ -14,6 +14,9 @@ struct TexturePoint {
   Vector3f normal{0, 1, 0};     ///< world space, unit length, the shading normal
   Vector2f uv_dx{0}, uv_dy{0};  ///< how uv changes to the next sample to the right and below; 0: a point
   Vector3f position_dx{0}, position_dy{0};  ///< likewise the position, world space
+  /// Few samples share the pixel, and the footprint is what one of them stands for: no other look will make
+  /// up for a bad average.
+  bool is_coarse = false;
 };
 
 /// A function over surfaces. Immutable; any number of threads may ask it at once.
@@ -24,6 +27,10 @@ class Texture {
   /// The average over the point's footprint, as good as can be had. A colour is linear where the scene's
   /// method is `path`, a display value in `classic`; a texture for a number puts it into every channel.
   virtual Color3f at(const TexturePoint& point) const = 0;
+
+  /// Whether that is the average over the very parallelogram of the footprint. Else it is one over something
+  /// about as large, and more looks at parts of it come closer.
+  virtual bool is_exact() const { return false; }
 };
 
 using TexturePointer = std::shared_ptr<const Texture>;

@@ -46,6 +46,11 @@ bool is_cutout(const Material& material) {
   return material.alpha < 1 || (material.textures != nullptr && material.textures->alpha != nullptr);
 }
 
+// Whether the ray meets the surface from behind.
+bool leaves(const Scene& scene, const Ray3f& ray, const Hit& hit) {
+  return glm::dot(scene.surface_at(ray, hit).normal, ray.direction) > 0;
+}
+
 // Not inlined, so that the shape writes the point where it is wanted: GCC else copies it, and waits for the
 // stores of single floats that it reads eight at once.
 [[gnu::noinline]] SurfacePoint surface_at(const Scene& scene, const Ray3f& ray, const Hit& hit) {
@@ -67,8 +72,7 @@ Media media_at(const Scene& scene, const Vector3f& position) {
   for (int i = 0; i < kMostSurfaces && scene.is_hit(ray, hit); ++i) {
     const Material* material = &scene.material_of(hit);
     if (has_inside(*material)) {
-      const bool leaves = glm::dot(scene.surface_at(ray, hit).normal, ray.direction) > 0;
-      if (!leaves) {
+      if (!leaves(scene, ray, hit)) {
         met.enter(material);
       } else if (met.innermost() != nullptr) {
         met.leave(met.innermost());
@@ -110,6 +114,16 @@ struct PathTracer::Vertex {
     const bool is_reflected = glm::dot(direction, is_smooth() ? light_side : facing) > 0;
     if (!is_reflected) return offset_position(direction, epsilon);
     return surface.position + epsilon.value_or(surface.position_error) * facing + surface.shadow_offset;
+  }
+
+  // The media behind the surface that a ray goes through.
+  void cross(const Vector3f& direction, Media& media) const {
+    if (!has_inside(material)) return;
+    if (glm::dot(direction, surface.normal) < 0) {
+      media.enter(&material);
+    } else {
+      media.leave(&material);
+    }
   }
 
   // Whether facets stand for a curved surface that lets no light through.
@@ -201,6 +215,8 @@ bool PathTracer::is_passed(const Path& path, std::uint32_t index, int depth, std
   const Material& material = scene_.material_of(hit);
   if (!material.is_visible && material.is_area_light && depth == 0) return true;
   if (!has_cutouts_ || !is_cutout(material)) return false;
+  // Who has come into glass by a hole sees none of it; who has come in through the glass sees all of it.
+  if (has_inside(material) && leaves(scene_, path.ray, hit)) return !media_of_[index].contains(&material);
   const std::uint32_t bits = hash_bits(
       numbers_[index].reversed ^
       hash_bits(settings_.seed + 0x9E3779B9U * (static_cast<std::uint32_t>(depth) * 1024U + passes)));
@@ -256,7 +272,10 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   }
   std::optional<MaterialValues> textured;
   if (material.textures != nullptr || scene_.has_vertex_colors()) {
-    textured = scene_.textured(path.ray, hit, cone.footprint_at(distance), vertex.surface);
+    // Light that could have been chosen is seen as it would have been: sharp.
+    const bool is_sharp = path.pdf > 0 && material.is_emissive();
+    const Footprint footprint = is_sharp ? Footprint{} : cone.footprint_at(distance);
+    textured = scene_.textured(path.ray, hit, footprint, vertex.surface);
     vertex.resolved = &*textured;
   }
   if (vertex.resolved->is_emissive()) add_emission(path, vertex, depth);
@@ -277,8 +296,8 @@ bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
   if (material.anisotropy != 0) frame.tangent = scene_.detail_at(path.ray, hit).along_u;
   frame.ior_inside = material.ior;
   if (media != nullptr) {
-    const bool leaves = has_inside(material) && !is_outside;
-    frame.ior_outside = leaves ? media->ior_without(&material) : media->ior();
+    const bool is_leaving = has_inside(material) && !is_outside;
+    frame.ior_outside = is_leaving ? media->ior_without(&material) : media->ior();
   }
   const Bsdf bsdf(*vertex.resolved, frame);
   if (!bsdf.is_delta()) add_direct_light(path, vertex, bsdf, index, depth);
@@ -331,6 +350,10 @@ void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const 
   // Multiplied in this order nothing overflows that is not too large itself.
   waiting_.light[i] = path.throughput * value * (weight / light.pdf) * light.radiance;
   waiting_.slot[i] = path.slot;
+  if (has_cutouts_ && has_media_) {
+    waiting_.media[i] = media_of_[index];
+    if (glm::dot(light.direction, vertex.facing) < 0) vertex.cross(light.direction, waiting_.media[i]);
+  }
   if (depth > 0 && settings_.clamp_indirect > 0) {
     const float most = largest(waiting_.light[i]);
     if (most > settings_.clamp_indirect) waiting_.light[i] *= settings_.clamp_indirect / most;
@@ -351,11 +374,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   if (sample.is_transmission && has_inside(vertex.material)) {
     Media& media = media_of_[index];
     const float before = media.ior();
-    if (glm::dot(sample.direction, vertex.surface.normal) < 0) {
-      media.enter(&vertex.material);
-    } else {
-      media.leave(&vertex.material);
-    }
+    vertex.cross(sample.direction, media);
     const float ratio = media.ior() / before;
     path.radiance_scale *= ratio * ratio;
   }
@@ -391,7 +410,7 @@ void PathTracer::add_unoccluded() {
   ray_count_ += count;
   if (has_cutouts_) {
     for (std::size_t i = 0; i < count; ++i) {
-      add(waiting_.slot[i], share_seen(waiting_.rays[i]) * waiting_.light[i], 0);
+      add(waiting_.slot[i], share_seen(waiting_.rays[i], waiting_.media[i]) * waiting_.light[i], 0);
     }
     return;
   }
@@ -401,14 +420,19 @@ void PathTracer::add_unoccluded() {
   }
 }
 
-// How much of the light along a shadow ray the cut-outs in its way let pass.
-float PathTracer::share_seen(Ray3f ray) const {
+// How much of the light along a shadow ray the cut-outs in its way let pass; `media` are around its origin.
+float PathTracer::share_seen(Ray3f ray, const Media& media) const {
   constexpr int kMostSurfaces = 1000;
   float share = 1;
   Hit hit;
   for (int i = 0; i < kMostSurfaces && scene_.is_hit(ray, hit); ++i) {
-    if (!is_cutout(scene_.material_of(hit))) return 0;
-    share *= 1 - scene_.alpha_at(ray, hit);
+    const Material& material = scene_.material_of(hit);
+    if (!is_cutout(material)) return 0;
+    if (has_inside(material) && leaves(scene_, ray, hit)) {
+      if (media.contains(&material)) return 0;
+    } else {
+      share *= 1 - scene_.alpha_at(ray, hit);
+    }
     if (!(share > 0)) return 0;
     ray.t_min = std::nextafter(hit.t, kInfinity);
     hit = Hit{};

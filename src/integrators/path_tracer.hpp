@@ -69,6 +69,7 @@ class PathTracer {
     Ray3f rays[kMostRays];
     Color3f light[kMostRays];
     std::uint32_t slot[kMostRays];
+    Media media[kMostRays];  // around their origins, where cut-outs and glass are about
   };
 
   // A path's latest hit, with all that shading needs.
@@ -88,7 +89,7 @@ class PathTracer {
   float roulette(const Path& path, int depth, float u) const;
   void add(std::uint32_t slot, Color3f light, int depth);
   void add_unoccluded();
-  float share_seen(Ray3f ray) const;
+  float share_seen(Ray3f ray, const Media& media) const;
   void draw_points(int depth);
 
   const Scene& scene_;

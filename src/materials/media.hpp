@@ -18,12 +18,13 @@ class Media {
   const Material* innermost() const { return count_ > 0 ? stack_[count_ - 1] : nullptr; }
   float ior() const { return count_ > 0 ? stack_[count_ - 1]->ior : 1.0F; }
 
-  /// Whether the shape of this material ends inside of another that was entered later: where it ends nothing
-  /// is seen.
-  bool is_covered(const Material* material) const {
-    if (innermost() == material) return false;
+  bool contains(const Material* material) const {
     return std::find(stack_.begin(), stack_.begin() + count_, material) != stack_.begin() + count_;
   }
+
+  /// Whether the shape of this material ends inside of another that was entered later: where it ends nothing
+  /// is seen.
+  bool is_covered(const Material* material) const { return innermost() != material && contains(material); }
 
   /// The index of refraction where one is after leaving the shape of this material.
   float ior_without(const Material* material) const {

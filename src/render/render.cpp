@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "core/parallel.hpp"
@@ -71,15 +72,21 @@ std::vector<Slice> cut_into_slices(double time, const RenderSettings& settings) 
 // The sums of a tile's pixels while its samples are rendered. Between slices of time the image holds sums.
 class TileSums {
  public:
-  TileSums(const Tile& tile, Image& image)
-      : image_(image), pixels_(pixels_in_blocks(tile)), sums_(pixels_.size()) {
+  TileSums(const Tile& tile, Image& image, int samples)
+      : image_(image),
+        brightest_(std::numeric_limits<float>::max() / static_cast<float>(samples)),
+        pixels_(pixels_in_blocks(tile)),
+        sums_(pixels_.size()) {
     for (std::size_t i = 0; i < pixels_.size(); ++i) sums_[i] = image.at(pixels_[i].x, pixels_[i].y);
   }
 
   const std::vector<glm::ivec2>& pixels() const { return pixels_; }
 
+  /// What is brighter than a picture can hold counts as bright as that.
   void add(const std::vector<Color3f>& colors, float scale) {
-    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += scale * colors[i];
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      sums_[i] += glm::min(glm::max(Color3f(0), scale * colors[i]), brightest_);
+    }
   }
 
   /// After the last of all samples the sums become means.
@@ -91,6 +98,7 @@ class TileSums {
 
  private:
   Image& image_;
+  float brightest_;
   std::vector<glm::ivec2> pixels_;
   std::vector<Color3f> sums_;
 };
@@ -131,6 +139,8 @@ RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pi
   cone.aside_direction = middle.direction - ray.direction;
   cone.edges = scene.camera().differential(across, down, lens, static_cast<double>(share.edge) / image.width,
                                            static_cast<double>(share.edge) / image.height);
+  constexpr int kFew = 16;
+  cone.is_coarse = samples < kFew;
   cone.width = glm::length(cone.edges.origin_dx);
   cone.spread = glm::length(cone.edges.direction_dx);
   return cone;
@@ -152,7 +162,7 @@ class ClassicRenderer {
 
   /// Adds to the tile's pixels; returns how many rays that took.
   std::uint64_t render(const Tile& tile) const {
-    TileSums sums(tile, image_);
+    TileSums sums(tile, image_, settings_.samples);
     const std::vector<glm::ivec2>& pixels = sums.pixels();
     std::vector<Color3f> colors(pixels.size());
     std::vector<Ray3f> rays(pixels.size());
@@ -227,7 +237,7 @@ class PathRenderer {
   }
 
   std::uint64_t render(const Tile& tile) const {
-    TileSums sums(tile, image_);
+    TileSums sums(tile, image_, settings_.samples);
     const std::vector<glm::ivec2>& pixels = sums.pixels();
     std::vector<Color3f> colors(pixels.size());
     std::vector<Ray3f> rays(pixels.size());

@@ -13,6 +13,7 @@
 #include "lights/illuminate.hpp"
 #include "lights/light_tree.hpp"
 #include "scene/placed_surface.hpp"
+#include "textures/material_at.hpp"
 
 namespace raytracer {
 
@@ -81,9 +82,9 @@ double seen_share(const LightCone& cone) {
   return 0.25 + 0.75 * std::max(0.0, static_cast<double>(cone.cos_spread));
 }
 
-/// The mean of a texture, over the unit square of uv; never 0 in all channels, since it may shine where it
-/// was not asked.
-Color3f mean_of(const Texture& texture, const Box3f& bounds) {
+/// The mean of what textures let shine, over the unit square of uv; never 0 in all channels, since it may
+/// shine where it was not asked.
+Color3f mean_of(const Material& material, const Box3f& bounds) {
   constexpr int kSide = 8;
   Color3f sum(0), most(0);
   TexturePoint point;
@@ -94,8 +95,7 @@ Color3f mean_of(const Texture& texture, const Box3f& bounds) {
                          (static_cast<float>(i / kSide) + 0.5F) / kSide);
     point.uv = share;
     point.position = bounds.lower + Vector3f(share.x, share.y, share.x) * bounds.diagonal();
-    const Color3f value = glm::max(texture.at(point), Color3f(0));
-    if (!is_finite(value)) continue;
+    const Color3f value = emitted_at(material, point);
     sum += value / static_cast<float>(kSide * kSide);
     most = glm::max(most, value);
   }
@@ -118,10 +118,11 @@ bool gather_shape(const Shape& shape, const Material& material, ShiningShape& sh
   if (count == 0 || !material.is_emissive()) return false;
   shining.shape = &shape;
   shining.material = &material;
-  shining.is_textured = material.textures != nullptr && material.textures->emission != nullptr;
+  shining.is_textured =
+      material.textures != nullptr && (material.textures->emission || material.textures->alpha);
   shining.is_one_sided = material.is_area_light;
-  shining.radiance = shining.is_textured ? mean_of(*material.textures->emission, shape.bounds())
-                                         : glm::max(material.emission, Color3f(0));
+  shining.radiance =
+      shining.is_textured ? mean_of(material, shape.bounds()) : emitted_at(material, TexturePoint{});
   if (!is_finite(shining.radiance) || !(largest(shining.radiance) > 0)) return false;
 
   if (count == 1) {
@@ -416,7 +417,7 @@ bool LightSet::Parts::sample_emitter(const Emitter& emitter, const Vector3f& pos
     asked.uv = shining.shape->detail_at({from, chosen.position - from}, hit).uv;
     asked.position = point.position;
     asked.normal = point.normal;
-    sample.radiance = glm::max(shining.material->textures->emission->at(asked), Color3f(0));
+    sample.radiance = emitted_at(*shining.material, asked);
   }
   return true;
 }

@@ -14,10 +14,11 @@ struct RayCone {
   /// for, and how that one changes over the edges of it. `aside_*` like the differential's.
   Vector3f aside_origin{0}, aside_direction{0};
   RayDifferential edges{};
+  bool is_coarse = false;  ///< few rays share the pixel
 
   Footprint footprint_at(float t) const {
     return {width + t * spread, edges.origin_dx + t * edges.direction_dx,
-            edges.origin_dy + t * edges.direction_dy, aside_origin + t * aside_direction};
+            edges.origin_dy + t * edges.direction_dy, aside_origin + t * aside_direction, is_coarse};
   }
   /// Of a ray that goes on from there.
   RayCone at(float t) const { return {width + t * spread, spread}; }

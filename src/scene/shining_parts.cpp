@@ -5,6 +5,7 @@
 
 #include "materials/absorption.hpp"
 #include "materials/fresnel.hpp"
+#include "textures/material_at.hpp"
 
 namespace raytracer {
 namespace {
@@ -12,6 +13,10 @@ namespace {
 bool lets_light_pass(const Material& material) {
   return material.alpha < 1 || material.transmission > 0 ||
          (material.textures && (material.textures->alpha || material.textures->transmission));
+}
+
+bool may_be_there(const Material& material) {
+  return material.alpha > 0 || (material.textures && material.textures->alpha);
 }
 
 float largest(const Color3f& c) { return std::max({c.x, c.y, c.z}); }
@@ -63,13 +68,30 @@ ShiningParts::ShiningParts(const SceneDescription& scene) {
 
 void ShiningParts::add(const Shape& shape, const Material& material, const Instance* instance) {
   has_see_through_ = has_see_through_ || lets_light_pass(material);
-  if (!(largest(material.emission) > 0)) return;
+  if (!(largest(material.emission) > 0) || !may_be_there(material)) return;
   for (std::uint32_t part = 0; part < shape.part_count(); ++part) {
     const double power = static_cast<double>(shape.part_extent(part).area) * largest(material.emission);
     if (!(power > 0)) continue;
     const double before = parts_.empty() ? 0 : parts_.back().power_up_to;
     parts_.push_back({&shape, &material, instance, part, before + power});
   }
+}
+
+// What the point gives off.
+Color3f ShiningParts::light_of(const Part& part, const Vector3f& own_from, const ShapeSample& chosen,
+                               const Vector3f& position, const Vector3f& normal) {
+  TexturePoint point;
+  point.position = position;
+  point.normal = normal;
+  if (part.material->textures != nullptr) {
+    Hit hit;
+    hit.t = 1;
+    hit.primitive = part.part;
+    hit.u = chosen.u;
+    hit.v = chosen.v;
+    point.uv = part.shape->detail_at({own_from, chosen.position - own_from}, hit).uv;
+  }
+  return emitted_at(*part.material, point);
 }
 
 bool ShiningParts::sample(std::uint32_t k, const Vector3f& from, const Vector2f& u,
@@ -105,7 +127,7 @@ bool ShiningParts::sample(std::uint32_t k, const Vector3f& from, const Vector2f&
   sample.direction = way / distance;
   const float facing = -glm::dot(sample.direction, normal);
   if (part.material->is_area_light && !(facing > 0)) return false;
-  sample.light = weight / pdf * part.material->emission;
+  sample.light = weight / pdf * light_of(part, own_from, chosen, position, normal);
   sample.target = position + (facing > 0 ? error : -error) * normal;
   return true;
 }

@@ -44,6 +44,8 @@ class ShiningParts {
   };
 
   void add(const Shape& shape, const Material& material, const Instance* instance);
+  static Color3f light_of(const Part& part, const Vector3f& own_from, const ShapeSample& chosen,
+                          const Vector3f& position, const Vector3f& normal);
 
   std::vector<Part> parts_;
   bool has_see_through_ = false;

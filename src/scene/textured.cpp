@@ -64,6 +64,7 @@ TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const 
   if (footprint.dx == Vector3f(0) || footprint.dy == Vector3f(0)) {
     set_square(direction, surface.normal, footprint.width, point);
   } else {
+    point.is_coarse = footprint.is_coarse;
     point.position_dx = onto_plane(direction, surface.normal, footprint.dx);
     point.position_dy = onto_plane(direction, surface.normal, footprint.dy);
   }

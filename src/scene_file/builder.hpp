@@ -347,6 +347,7 @@ class Builder {
   std::optional<std::uint32_t> last_material_;
   TexturePointer last_texture_;
   std::vector<BuiltTexture> named_textures_;  // their names are among the materials': "texture oak"
+  bool texture_is_opacity_ = false;
   TextureMeaning texture_meaning_ = TextureMeaning::kDisplay;
 
   // Materials of the library that the scene has named.

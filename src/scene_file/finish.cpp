@@ -10,6 +10,7 @@
 #include "core/suggest.hpp"
 #include "raytracer/error.hpp"
 #include "scene_file/method.hpp"
+#include "scene_file/slips.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -233,100 +234,10 @@ void warn_of_other_methods_words(const RenderDraft& render, const LoadOptions& o
   }
 }
 
-bool has_shape_that_shines(const SceneDescription& scene) {
-  const auto shines = [](const Material& material) { return material.is_emissive(); };
-  if (std::ranges::any_of(scene.materials, shines) &&
-      std::ranges::any_of(scene.material_of, [&](std::uint32_t i) { return shines(scene.materials[i]); })) {
-    return true;
-  }
-  const auto shines_here = [&](const Instance& instance) {
-    return instance.material != Instance::kOwnMaterials && shines(scene.materials[instance.material]);
-  };
-  if (std::ranges::any_of(scene.instances, shines_here)) return true;
-  return std::ranges::any_of(scene.shared, [&](const auto& shared) {
-    for (std::uint32_t i = 0; i < shared->size(); ++i) {
-      if (shines(shared->material_of(i))) return true;
-    }
-    return false;
-  });
-}
-
 // Whether light comes from anywhere. In `path` the background shines, too.
 bool has_light(const SceneDescription& scene, Method method) {
   if (!scene.lights.empty() || scene.sky != nullptr || has_shape_that_shines(scene)) return true;
   return (method == Method::kPath ? scene.background : scene.ambient) != Color3f(0);
-}
-
-// --- what looks like a slip -------------------------------------------------------------------------------
-
-bool is_within(const Box3f& box, const Vector3f& point) {
-  return glm::all(glm::greaterThan(point, box.lower)) && glm::all(glm::lessThan(point, box.upper));
-}
-
-// Whether a finite shape encloses the point: seen from there it shows its inside in all directions. An open
-// cylinder does not, and neither does a sheet.
-bool encloses(const Shape& shape, const Vector3f& point) {
-  const Box3f box = shape.bounds();
-  if (!box.is_finite() || !is_within(box, point)) return false;
-  constexpr float kAside = 0.123f;  // edges and seams lie along the axes
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const float side : {-1.0f, 1.0f}) {
-      Ray3f ray{point, Vector3f(kAside, 0.7f * kAside, -0.4f * kAside)};
-      ray.direction[axis] = side;
-      Hit hit;
-      if (!shape.is_hit(ray, hit)) return false;
-      if (glm::dot(shape.surface_at(ray, hit).normal, ray.direction) < 0) return false;
-    }
-  }
-  return true;
-}
-
-bool lets_light_out(const Material& material) {
-  return material.transmission > 0 || material.alpha < 1 ||
-         (material.textures != nullptr && (material.textures->alpha || material.textures->transmission));
-}
-
-// A lamp in an opaque ball shines into that ball alone, which is seen only from within.
-void warn_of_buried_lights(const SceneDraft& draft, Diagnostics& diagnostics) {
-  constexpr std::size_t kMostPairs = 2'000'000;  // of a light and a shape; more take too long
-  const SceneDescription& scene = draft.scene;
-  if (scene.lights.size() * scene.shapes.size() > kMostPairs) return;
-  for (std::size_t i = 0; i < std::min(scene.lights.size(), draft.light_places.size()); ++i) {
-    const Light& light = scene.lights[i];
-    if (light.kind == Light::Kind::kDirectional) continue;
-    for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
-      if (lets_light_out(scene.materials[scene.material_of[s]])) continue;
-      if (!encloses(*scene.shapes[s], light.position)) continue;
-      if (is_within(scene.shapes[s]->bounds(), Vector3f(scene.camera.position()))) continue;
-      diagnostics.warning(draft.light_places[i], "the light stands inside a closed shape, which hides it",
-                          "give the shape a material with 'emission' to see it shine");
-      break;
-    }
-  }
-}
-
-void warn_of_camera_in_glass(const SceneDescription& scene, const CameraDraft& camera,
-                             const std::string& name, Diagnostics& diagnostics) {
-  for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
-    const Material& material = scene.materials[scene.material_of[s]];
-    if (material.transmission == 0 || material.thin) continue;
-    if (!encloses(*scene.shapes[s], Vector3f(camera.position))) continue;
-    constexpr const char* kMessage = "the camera stands inside a shape that lets light in";
-    constexpr const char* kHint = "it sees as an eye under water does";
-    if (camera.place.source == nullptr) return diagnostics.warning(name, kMessage, kHint);
-    return diagnostics.warning(camera.place, kMessage, kHint);
-  }
-}
-
-// Whether no light has any strength although there are some.
-void warn_of_darkness(const SceneDescription& scene, const std::string& name, Diagnostics& diagnostics) {
-  const bool is_dark =
-      std::ranges::all_of(scene.lights, [](const Light& l) { return l.lambda == Color3f(0); });
-  const bool is_lit = !is_dark || scene.sky != nullptr || scene.ambient != Color3f(0) ||
-                      scene.background != Color3f(0) || has_shape_that_shines(scene);
-  if (is_lit) return;
-  diagnostics.warning(name, "the picture will be black: no light has any strength",
-                      "light { intensity 1000 }");
 }
 
 void add_headlight(SceneDescription& scene) {
@@ -366,9 +277,7 @@ RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::
     add_headlight(scene);
     diagnostics.warning(name, "the scene has no light", "one shines from the camera");
   }
-  warn_of_darkness(scene, name, diagnostics);
-  warn_of_buried_lights(draft, diagnostics);
-  warn_of_camera_in_glass(scene, camera, name, diagnostics);
+  warn_of_slips(draft, camera, settings.method, name, diagnostics);
   if (scene.shapes.empty() && scene.instances.empty()) {
     diagnostics.warning(name, "nothing is in view: the scene has no shapes", "sphere { }");
   } else if (!is_anything_in_view(scene)) {

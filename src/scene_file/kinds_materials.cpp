@@ -89,7 +89,8 @@ constexpr PropertyRow kMaterial[] = {
         .or_texture<&MaterialInput::textures, &MaterialTextures::anisotropy>(),
     property<&MaterialInput::alpha>("alpha", "Below 1 it is there for that share of the light only.")
         .within(kShare)
-        .or_texture<&MaterialInput::textures, &MaterialTextures::alpha>(),
+        .or_texture<&MaterialInput::textures, &MaterialTextures::alpha>()
+        .as_opacity(),
     property<&MaterialInput::energy_compensation>(
         "energy_compensation", "Gives rough surfaces the light back that is scattered more than once."),
     property<&MaterialInput::eta>("eta", "A measured metal: its index of refraction for red, green and blue.")

@@ -114,6 +114,7 @@ struct PropertyRow {
   bool is_placing = false;  ///< a transform word
   bool is_repeatable = false;
   bool is_texture_only = false;  ///< the same value everywhere makes no sense
+  bool is_opacity = false;       ///< of a picture with an alpha channel that is what counts
   void (*store)(void* input, const Argument& argument) = nullptr;
   void (*store_texture)(void* input, const TexturePointer& texture) = nullptr;  ///< null: it takes none
   std::string (*default_value)(const void* input,
@@ -139,6 +140,7 @@ struct PropertyRow {
   }
   constexpr PropertyRow as(PropertyType new_type) const { return with(&PropertyRow::type, new_type); }
   constexpr PropertyRow for_textures_alone() const { return with(&PropertyRow::is_texture_only, true); }
+  constexpr PropertyRow as_opacity() const { return with(&PropertyRow::is_opacity, true); }
   /// A texture may stand in its place, for which `Textures` of the input struct has the member `Texture`.
   template <auto Textures, auto Texture>
   constexpr PropertyRow or_texture() const;

@@ -54,8 +54,13 @@ auto BlockContext::read_picture_file(std::string_view property, const std::strin
 
 std::shared_ptr<const TexelPyramid> BlockContext::pyramid(std::string_view property, const std::string& file,
                                                           const TexelUse& use) {
-  return read_picture_file(
-      property, file, [&](const std::string& path) { return builder_.files_.pictures().pyramid(path, use); });
+  return read_picture_file(property, file, [&](const std::string& path) {
+    PictureCache& pictures = builder_.files_.pictures();
+    TexelUse wanted = use;
+    const bool is_opacity = builder_.texture_is_opacity_ && use.channel == TextureChannel::kAll;
+    if (is_opacity && pictures.picture(path)->has_alpha()) wanted.channel = TextureChannel::kAlpha;
+    return pictures.pyramid(path, wanted);
+  });
 }
 
 std::shared_ptr<const Picture> BlockContext::picture(std::string_view property, const std::string& file) {
@@ -166,10 +171,15 @@ bool BlockContext::fill_texture_block(const PropertyRow& row, const BlockNode& b
   const bool is_outermost = row_.block_class != BlockClass::kTexture;
   const bool is_color = row.type == PropertyType::kColor && !row.is_texture_only;
   const TextureMeaning wanted = is_color ? builder_.color_meaning() : TextureMeaning::kNumber;
-  const TextureMeaning before = builder_.texture_meaning_;
-  if (is_outermost) builder_.texture_meaning_ = wanted;
+  const TextureMeaning meaning_before = builder_.texture_meaning_;
+  const bool is_opacity_before = builder_.texture_is_opacity_;
+  if (is_outermost) {
+    builder_.texture_meaning_ = wanted;
+    builder_.texture_is_opacity_ = row.is_opacity;
+  }
   const std::optional<BuiltTexture> texture = builder_.build_texture(*kind, block, {}, around_);
-  builder_.texture_meaning_ = before;
+  builder_.texture_meaning_ = meaning_before;
+  builder_.texture_is_opacity_ = is_opacity_before;
   return texture && store_texture(row, *texture, input);
 }
 

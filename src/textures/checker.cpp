@@ -10,6 +10,7 @@ namespace {
 class Checker final : public Pattern {
  public:
   using Pattern::Pattern;
+  bool is_exact() const override { return has_exact_colors(); }
 
  protected:
   // A footprint that is long and lies askew is cut into shorter ones, whose boxes fit it better.

@@ -94,6 +94,8 @@ class ImageTexture : public Texture {
     return is_mean_ ? Color3f((color.x + color.y + color.z) / 3) : color;
   }
 
+  bool is_exact() const override { return true; }
+
  private:
   Vector2f placed(const Vector2f& uv) const { return uv.x * along_u_ + uv.y * along_v_; }
 

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textures/averaged.hpp"
+
 namespace raytracer {
 namespace {
+
+constexpr float kBrightest = 1e30f;  // beyond it products of colours are no numbers any more
 
 // What is not a number becomes `lowest`.
 float limited(float value, float lowest, float highest) {
@@ -23,7 +27,7 @@ float number_of(const Color3f& color) {
 }
 
 void look_up(const TexturePointer& texture, const TexturePoint& point, float lowest, float& value) {
-  if (texture) value = limited(number_of(texture->at(point)), lowest, 1);
+  if (texture) value = limited(number_of(averaged(*texture, point)), lowest, 1);
 }
 
 }  // namespace
@@ -32,9 +36,8 @@ MaterialValues material_at(const Material& material, const TexturePoint& point) 
   MaterialValues result = material;
   if (!material.textures) return result;
   const MaterialTextures& textures = *material.textures;
-  constexpr float kBrightest = 1e30f;  // beyond it products of colours are no numbers any more
-  if (textures.color) result.color = limited(textures.color->at(point), 0, 1);
-  if (textures.emission) result.emission = limited(textures.emission->at(point), 0, kBrightest);
+  if (textures.color) result.color = limited(averaged(*textures.color, point), 0, 1);
+  if (textures.emission) result.emission = limited(averaged(*textures.emission, point), 0, kBrightest);
   look_up(textures.shininess, point, 0, result.shininess);
   look_up(textures.roughness, point, 0, result.roughness);
   look_up(textures.metallic, point, 0, result.metallic);
@@ -51,6 +54,12 @@ float alpha_at(const Material& material, const TexturePoint& point) {
   float alpha = material.alpha;
   if (material.textures) look_up(material.textures->alpha, point, 0, alpha);
   return alpha;
+}
+
+Color3f emitted_at(const Material& material, const TexturePoint& point) {
+  const bool is_textured = material.textures != nullptr && material.textures->emission != nullptr;
+  const Color3f emission = is_textured ? material.textures->emission->at(point) : material.emission;
+  return alpha_at(material, point) * limited(emission, 0, kBrightest);
 }
 
 namespace {

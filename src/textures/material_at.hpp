@@ -13,6 +13,9 @@ MaterialValues material_at(const Material& material, const TexturePoint& point);
 /// How much of the surface is there, 0..1: alpha alone, for rays that ask only for that.
 float alpha_at(const Material& material, const TexturePoint& point);
 
+/// What shines from there on average, 1 is white: the emission, as far as the surface is there.
+Color3f emitted_at(const Material& material, const TexturePoint& point);
+
 /// The shading normal after the material's normal map and bump, unit length, on the same side of the surface.
 /// `normal` is the shading normal before. Where the surface has no u and v directions a normal map does
 /// nothing and bump follows the position alone.

@@ -18,6 +18,7 @@ struct TextureInput {
   TextureInput(const Color3f& same) : color(same) {}
   TextureInput(TexturePointer other) : texture(std::move(other)) {}
   Color3f at(const TexturePoint& point) const { return texture ? texture->at(point) : color; }
+  bool is_exact() const { return texture == nullptr || texture->is_exact(); }
 };
 
 /// What a pattern's coordinates follow.
@@ -68,6 +69,7 @@ class Pattern : public Texture {
   /// How much of `b` is there, 0..1, on average over the footprint.
   virtual float share(const PatternPoint& point) const = 0;
   PatternMap map() const { return setup_.space.map; }
+  bool has_exact_colors() const { return setup_.a.is_exact() && setup_.b.is_exact(); }
 
  private:
   PatternPoint own_point(const TexturePoint& point) const;

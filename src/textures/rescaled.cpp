@@ -12,6 +12,8 @@ class Rescaled final : public Texture {
     return around_ + factor_ * (texture_->at(point) - around_);
   }
 
+  bool is_exact() const override { return texture_->is_exact(); }
+
  private:
   TexturePointer texture_;
   Color3f around_, factor_;

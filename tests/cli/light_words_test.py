@@ -71,6 +71,25 @@ class Messages(unittest.TestCase):
                          "the light stands inside a closed shape, which hides it",
                          "give the shape a material with 'emission' to see it shine")
 
+    def test_what_nobody_can_see(self):
+        eye = "camera { position 0 0 5 }\n"
+        shining = "sphere { radius 0.3  material { emission 1 } }"
+        lamp = "light area { origin -0.2 -0.2 0  width 0.4 0 0  height 0 0.4 0 }"
+        hidden = "a shape that shines stands inside a closed shape"
+        for scene, message in (
+                (eye + "sphere { }" + shining, hidden), (eye + "cube { size 2 }" + lamp, hidden),
+                (eye + "sphere { material glass }" + shining, None),
+                ("camera { position 0 0 0.9 } sphere { }" + shining, None),  # a room
+                ("camera { } light { position 0 0 9 } sphere { }", "the camera stands inside a closed shape"),
+                ("camera { } light { position 0 0.5 0 } sphere { }", None),
+                (eye + "render { method path } light { } sphere { material glass }", "no path finds a light without size")):
+            with self.subTest(scene):
+                code, messages = check(scene)
+                self.assertEqual(code, 0)
+                told = [m["message"] for m in messages if "inside" in m["message"] or "finds" in m["message"]]
+                self.assertEqual(len(told), message is not None, told)
+                self.assertTrue(all(message in m for m in told), told)
+
     def test_a_black_scene(self):
         code, messages = check("camera { position 0 0 5 } light { intensity 0 position 0 3 3 } sphere { }")
         self.assertEqual((code, [m["severity"] for m in messages]), (0, ["warning"]))

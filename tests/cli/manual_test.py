@@ -101,6 +101,31 @@ class Reference(unittest.TestCase):
         self.assertEqual(written.strip(), done.stdout.decode().strip(), again)
 
 
+class Coordinates(unittest.TestCase):
+    def test_the_table_of_u_and_v_is_true(self):
+        text = REFERENCE.read_text()
+        table = text[text.index("| Shape | Point | Seen from | u | v |"):].split("\n\n")[0]
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()[2:]]
+        shape, checked = None, 0
+        for what, point, eye, *uv in rows:
+            named = re.match(r"`(.*)\}`", what)
+            shape = named[1] if named else shape
+            if not point:
+                continue
+            up = "0 0 1" if eye.split()[0] == point.split()[0] and eye.split()[2] == point.split()[2] else "0 1 0"
+            scene = (f"camera {{ position {eye}  look_at {point}  up {up}  fov 0.01 }} render {{ method path  bounces 0 }}\n"
+                     f"{shape} material {{ color 0  emission (u) (v) 0 }} }}")
+            with self.subTest(scene), tempfile.TemporaryDirectory() as folder:
+                picture = pathlib.Path(folder) / "out.pfm"
+                done = program.run("-", "-o", picture, "--size", "1x1", "--samples", "1", stdin=scene.encode())
+                self.assertEqual(done.returncode, 0, done.stderr.decode())
+                _, _, [[found]] = program.read_pfm(picture.read_bytes())
+                for value, expected in zip(found, map(float, uv)):
+                    self.assertAlmostEqual(value, expected, 4)
+                checked += 1
+        self.assertEqual(checked, 13)
+
+
 class Grammar(unittest.TestCase):
     """The grammar uses no word that it does not explain, and explains none that it does not use."""
 

@@ -13,11 +13,11 @@ SMALL = ("--size", "40x24", "--samples", "1", "-q", "-o", "-")
 
 
 def png(width, height, pixel):
-    """A PNG of 8-bit RGB whose pixels are pixel(x, y)."""
+    """A PNG of 8-bit RGB, or RGB and alpha, whose pixels are pixel(x, y)."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(width)) for y in range(height))
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[len(pixel(0, 0))], 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
@@ -131,6 +131,14 @@ class Textures(unittest.TestCase):
         done = run("json", scene)
         self.assertIn(b'"parts/own.png"', done.stdout)
         self.assertEqual(self.render(scene), self.render(self.write(done.stdout.decode(), "again.json")))
+
+    def test_alpha_is_the_alpha_of_a_picture_that_has_some(self):
+        (self.folder / "leaf.png").write_bytes(png(8, 8, lambda x, y: (0, 0, 0, 255 * (x % 2))))
+        (self.folder / "mask.png").write_bytes(png(8, 8, lambda x, y: (255 * (x % 2),) * 3))
+        scene = LIGHT + 'sphere { center 0 0.5 0  material { color 0.5  alpha image "%s" } }'
+        leaf = self.render(self.write(scene % "leaf.png"))
+        self.assertEqual(leaf, self.render(self.write(scene % "mask.png")))
+        self.assertNotEqual(leaf, self.render(self.write(LIGHT + "sphere { center 0 0.5 0  material { color 0.5 } }")))
 
     def test_short_and_long_form_are_the_same(self):
         short = self.write(LIGHT + 'sphere { material { color image "wood.png" { uv_scale 2 2 } } }', "a.txt")

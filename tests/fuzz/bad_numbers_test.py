@@ -2,8 +2,11 @@
 The answer is a message or a picture of finite values, never a crash."""
 
 import json
+import math
+import pathlib
 import re
 import resource
+import tempfile
 import unittest
 
 import program
@@ -115,13 +118,15 @@ class BadNumbers(unittest.TestCase):
             self.assertIn(b":3:" if kind.split()[0] not in FRAME else b":2:", done.stderr)
 
 
+def floats_of(path):
+    _, _, rows = program.read_pfm(path.read_bytes())
+    return [value for row in rows for pixel in row for value in pixel]
+
+
 class FinitePictures(unittest.TestCase):
     """Where a picture comes out, its floats are finite: NaN and infinity would show up in whatever reads them."""
 
     def test_extreme_scenes(self):
-        import math
-        import pathlib
-        import tempfile
         with tempfile.TemporaryDirectory() as folder:
             for number in ("1e18", "-1e18", "1e12", "1e-10", "1e-30", "1e-45", "1e-300", "0"):
                 for line in (f"sphere {{ center {number} 0 0 }}", f"sphere {{ center 0 0 {number} radius 1 }}",
@@ -136,9 +141,21 @@ class FinitePictures(unittest.TestCase):
                     done = program.run("-", "-o", path, "--size", "6x4", "--threads", "1", stdin=scene.encode(), preexec_fn=limit)
                     self.assertIn(done.returncode, (0, 1), scene + done.stderr.decode())
                     if done.returncode == 0:
-                        _, _, rows = program.read_pfm(path.read_bytes())
-                        values = [value for row in rows for pixel in row for value in pixel]
-                        self.assertTrue(all(map(math.isfinite, values)), scene)
+                        self.assertTrue(all(map(math.isfinite, floats_of(path))), scene)
+
+
+    def test_light_beyond_what_a_picture_holds(self):
+        glare = "light { position 0 0.001 0  radiant_intensity 1e32 }  plane { material { color 0.5 } }"
+        bright = "sphere { material { color 0  emission 1e30 } }  plane { material { color 0.5  shininess 0.5 } }"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "out.pfm"
+            for scene in (glare, bright):
+                for method in ("classic", "path"):
+                    text = (f"render {{ method {method}  samples 4 }}\n"
+                            f"camera {{ position 0 0.01 0  look_at 0 0 -0.001 }}\n{scene}")
+                    done = program.run("-", "-o", path, "--size", "8x8", stdin=text.encode(), preexec_fn=limit)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertTrue(all(math.isfinite(value) and value >= 0 for value in floats_of(path)), text)
 
 
 class Messages(unittest.TestCase):

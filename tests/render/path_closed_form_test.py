@@ -5,7 +5,7 @@ import unittest
 
 from float_pictures import render
 
-PATH = "render { method path  samples %d }\n"
+PATH = "render { method path  samples %d  %s }\n"
 
 
 def mean(picture):
@@ -14,16 +14,16 @@ def mean(picture):
     return [sum(picture.values[c::3]) / count for c in range(3)]
 
 
-def path(scene, samples=64, size="8x8", bounces=None):
+def path(scene, samples=64, size="8x8", bounces=None, words=""):
     options = ["--size", size] + (["--bounces", str(bounces)] if bounces is not None else [])
-    return render(PATH % samples + scene, *options)
+    return render(PATH % (samples, words) + scene, *options)
 
 
-def floor_radiance(lights, albedo=0.5, samples=1024, bounces=1):
+def floor_radiance(lights, albedo=0.5, samples=1024, bounces=1, words=""):
     """What the point (0, 0, 0) of a floor facing up returns, seen from the side through a narrow camera."""
     return mean(path(f"""camera {{ position 6 0.5 0  look_at 0 0 0  fov 0.01 }}
         quad {{ origin -0.5 0 0.5  width 1 0 0  height 0 0 -1  material {{ color {albedo} }} }}
-        {lights}""", samples, "4x4", bounces))
+        {lights}""", samples, "4x4", bounces, words))
 
 
 class Furnace(unittest.TestCase):
@@ -58,6 +58,11 @@ class Furnace(unittest.TestCase):
     def test_rough_metal(self):  # E5
         for roughness in (0.2, 0.5, 1):
             self.check(f"sphere {{ material {{ color 1  metallic 1  roughness {roughness} }} }}", 0.01, 256)
+
+    def test_glass_with_holes(self):
+        """Who comes in by a hole goes out by one: else its light would be squeezed on one of the ways only."""
+        self.check("sphere { material { color 1  transmission 1  ior 1.5  alpha 0.5 } }", 1e-3, 256)
+        self.check("cube { material { color 1  transmission 1  alpha checker { a 1  b 0  scale 0.3 } } }", 1e-3, 256)
 
     def test_rough_glass(self):
         for roughness in (0.3, 0.7):
@@ -119,6 +124,15 @@ class Irradiance(unittest.TestCase):
     def test_rectangle_shines_on_its_own_side_only(self):
         self.assertEqual(floor_radiance("light area { origin -1 1 1  width 2 0 0  height 0 0 -2  radiance 1 1 1 }"),
                          [0, 0, 0])
+
+    def test_light_that_is_there_in_part(self):
+        for material, share in (("emission 1  alpha 0.4", 0.4), ("emission 1  alpha 0", 0),
+                                ("emission 1  alpha (0.5 * u)", 0.25), ("emission (u)  alpha 0.5", 0.25)):
+            scene = f"quad {{ origin -1 1 -1  width 2 0 0  height 0 0 2  material {{ color 0  {material} }} }}"
+            for sampling in ("both", "lights", "materials"):
+                with self.subTest(material=material, sampling=sampling):
+                    value = floor_radiance(scene, samples=4096, words="sampling " + sampling)[0]
+                    self.assertLessEqual(abs(value - share * 0.5 / math.pi * 1.74084), 0.002)
 
     def test_scaled_shapes(self):
         self.check("sphere { center 0 3 0  radius 0.25  scale 2  material { color 0  emission 1 } }", 0.0872665)

@@ -44,13 +44,26 @@ def write_picture(path, value, size=256):
                      chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
-def mean_difference(scene, *options):
+def mean_difference(scene, *options, samples=256):
     few = float_pictures.render(scene, "--size", "360x200", "--samples", "4", *options)
-    many = float_pictures.render(scene, "--size", "360x200", "--samples", "256", *options)
+    many = float_pictures.render(scene, "--size", "360x200", "--samples", str(samples), *options)
     return sum(abs(a - b) for a, b in zip(few.values, many.values)) / len(many.values)
 
 
+PATTERN = """
+camera { position 0 1 5  look_at 0 0.6 0  fov 50 }
+render { ambient 1 }
+background { color 0.5 }
+plane { material { color %s { a 1  b 0  scale 0.5 } } }
+"""
+
+
 class Far(unittest.TestCase):
+    def test_patterns_are_their_averages(self):
+        for pattern in ("dots", "wood", "brick", "cells"):
+            with self.subTest(pattern):
+                self.assertLess(mean_difference(PATTERN % pattern, samples=64), 2 / 255)
+
     def test_a_checker_to_the_horizon_is_its_average(self):
         for turn in (0, 30):
             with self.subTest(turn):

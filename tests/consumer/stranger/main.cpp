@@ -12,7 +12,9 @@ namespace rt = raytracer;
 static std::shared_ptr<const rt::Scene> make_scene() {
   rt::SceneDescription scene;
   scene.shapes.push_back(rt::make_sphere({0, 0, 0}, 1));
-  scene.materials.push_back({.color = rt::Color3f(0.8f, 0.4f, 0.2f), .shininess = 0});
+  rt::Material terracotta;
+  terracotta.color = {0.8f, 0.4f, 0.2f};
+  scene.materials.push_back(terracotta);
   scene.material_of.push_back(0);
   rt::Light light;
   light.position = {0, 0, 3};
