@@ -272,6 +272,7 @@ RenderSettings finish(SceneDraft& draft, const LoadOptions& options, const std::
     settings.shutter = camera.shutter / draft.fps;
     warn_of_ghosts(camera, settings.samples, diagnostics);
   }
+  if (diagnostics.has_errors()) return settings;  // no warning follows from an error
 
   if (!has_light(scene, settings.method)) {
     add_headlight(scene);
