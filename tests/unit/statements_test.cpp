@@ -593,6 +593,7 @@ TEST_CASE("a setting replaces a top-level let", "[statements]") {
   CHECK(value_with("v", "(4, 5, 6)", "v") == "(4, 5, 6)");
   CHECK(value_with("v", "-4, 5.5, 6", "v") == "(-4, 5.5, 6)");
   CHECK(value_with("c", "tomato", "c") == "#ff6347");
+  CHECK(value_with("c", "0.5", "c") == "(0.5, 0.5, 0.5)");
   CHECK(value_with("c", "#0f0", "c") == "#00ff00");
   CHECK(value_with("c", "0.5,0.25,1", "c") == "(0.5, 0.25, 1)");
   CHECK(value_with("c", "hsv(0, 1, 1)", "c") == "#ff0000");
@@ -629,7 +630,7 @@ TEST_CASE("a setting that fits no let is an error of usage", "[statements]") {
   check("count", "words", "a number");
   check("count", "true", "a number");
   check("count", "1/0", "a number");
-  check("tint", "3", "a colour");
+  check("tint", "true", "a colour");
   check("tint", "tomatoo", "a colour");
   check("count", "", "count");
   check("t", "3", "t");
@@ -641,7 +642,7 @@ TEST_CASE("each limit refuses at the place that asked, and can be raised", "[sta
   LoadOptions options;
   options.limits.shapes = 10;
   const std::string eleven = "for i from 1 to 11 {\n  sphere { }\n}";
-  check_mistake(eleven, 2, 3, "10 shapes", options);
+  check_mistake(eleven, 1, 1, "10 shapes", options);  // before the first is made
   options.limits.shapes = 11;
   REQUIRE(scene_of(eleven, options)->description().shapes.size() == 11);
 
