@@ -21,24 +21,8 @@ constexpr float kCoatIor = 1.5F;
 float share(float x) { return x > 0 ? std::min(x, 1.0F) : 0.0F; }
 Color3f share(const Color3f& c) { return {share(c.x), share(c.y), share(c.z)}; }
 float index_of_refraction(float x) { return x > 0 ? std::clamp(x, 1e-2F, 1e2F) : 1.0F; }
+float cosine_of(const Vector3f& v) { return std::min(1.0F, std::abs(v.z)); }
 float largest(const Color3f& c) { return std::max(c.x, std::max(c.y, c.z)); }
-
-/// The albedo of facets with two roughnesses, of the albedos of either. It lies between them, 0.3 to 0.5 of
-/// the way to the greater at the normal, nearer to it at grazing and where they are close; this is hardly
-/// ever less, by integration over roughnesses and turns. So a little too little is made up for rather than
-/// too much.
-float drawn_albedo(float a, float b, float cosine) {
-  const float difference = std::abs(a - b), rest = 1 - cosine;
-  const float way = 0.5F + 0.8F * rest - difference * (0.22F + rest);
-  const float beyond = 0.02F * (rest * rest) * (rest * rest);  // of both, along the rougher direction
-  return std::min(1.0F, std::min(a, b) + std::min(1.0F, way) * difference + beyond);
-}
-
-/// Not above the mean over diffuse light of that.
-float drawn_albedo_mean(float a, float b) {
-  const float difference = std::abs(a - b);
-  return std::min(a, b) + (0.6F - 0.3F * difference) * difference;
-}
 
 float reflect_probability(const Color3f& reflected, const Color3f& through) {
   const float r = largest(reflected), t = largest(through);
@@ -148,15 +132,14 @@ void Bsdf::set_up_layers(const MaterialValues& material, float outside) {
   const bool has_layer = opaque_ > 0 && specular_ > 0 && layer_eta_ > 1;
   if (alpha_x_ > 0 || has_layer || coat_ > 0) {
     reflection_ = &ReflectionTable::get();
-    cell_x_ = ReflectionTable::Grid::cell_of(alpha_x_);
-    cell_y_ = is_isotropic_ ? cell_x_ : ReflectionTable::Grid::cell_of(alpha_y_);
+    cell_ = ReflectionTable::Grid::cell_of(alpha_x_);
   }
+  if (!is_isotropic_) drawn_cell_ = DrawnCell(alpha_x_, alpha_y_);
   if (has_layer) {
     layer_eta_cell_ = ReflectionTable::eta_cell(layer_eta_);
-    // Along two roughnesses the greater reflection is assumed (see layer_passes), so the smaller mean is
-    // safe.
-    layer_mean_passes_ = 1 - specular_ * std::max(reflection_->boundary_mean(cell_x_, layer_eta_cell_),
-                                                  reflection_->boundary_mean(cell_y_, layer_eta_cell_));
+    layer_mean_passes_ = 1 - specular_ * (is_isotropic_ ? reflection_->boundary_mean(cell_, layer_eta_cell_)
+                                                        : DrawnReflectionTable::get().boundary_mean(
+                                                              drawn_cell_, layer_eta_cell_));
   }
   if (coat_ <= 0) return;
   const float coat_eta = kCoatIor / outside;
@@ -173,8 +156,8 @@ void Bsdf::set_up_metal(const MaterialValues& material, float outside) {
   mirror_mean_loss_ = 0;
   const bool is_rough = alpha_x_ > 0;
   if (is_rough && has_compensation_ && (metal_ > 0 || (glass_ > 0 && is_thin_))) {
-    mirror_mean_loss_ =
-        1 - drawn_albedo_mean(reflection_->mirror_mean(cell_x_), reflection_->mirror_mean(cell_y_));
+    mirror_mean_loss_ = 1 - (is_isotropic_ ? reflection_->mirror_mean(cell_)
+                                           : DrawnReflectionTable::get().mirror_mean(drawn_cell_));
     if (mirror_mean_loss_ < kLeastLoss) mirror_mean_loss_ = 0;
   }
   if (metal_ <= 0) return;
@@ -202,12 +185,11 @@ void Bsdf::set_up_glass() {
     return;
   }
   const GlassTable& table = GlassTable::get();
-  glass_cell_x_ = GlassTable::Grid::cell_of(alpha_x_);
-  glass_cell_y_ = is_isotropic_ ? glass_cell_x_ : GlassTable::Grid::cell_of(alpha_y_);
+  glass_cell_ = GlassTable::Grid::cell_of(alpha_x_);
   for (GlassSide& side : sides_) {
     side.eta_cell = GlassTable::eta_cell(side.eta);
-    side.mean_loss = 1 - std::max(table.mean(glass_cell_x_, side.eta_cell, specular_),
-                                  table.mean(glass_cell_y_, side.eta_cell, specular_));
+    side.mean_loss = 1 - (is_isotropic_ ? table.mean(glass_cell_, side.eta_cell, specular_)
+                                        : DrawnGlassTable::get().mean(drawn_cell_, side.eta_cell, specular_));
   }
   const float sum = sides_[0].mean_loss + sides_[1].mean_loss;
   if (sides_[0].mean_loss < kLeastLoss || sides_[1].mean_loss < kLeastLoss) {
@@ -244,27 +226,23 @@ Bsdf::FacetShares Bsdf::facet_shares(const View& view, float cosine) const {
   return shares;
 }
 
-float Bsdf::mirror_loss(float cosine) const {
-  const float albedo = reflection_->mirror(cell_x_, cosine);
-  return 1 - (is_isotropic_ ? albedo : drawn_albedo(albedo, reflection_->mirror(cell_y_, cosine), cosine));
+float Bsdf::mirror_loss(const Vector3f& v) const {
+  if (!is_isotropic_) return 1 - DrawnReflectionTable::get().mirror(drawn_cell_, v);
+  return 1 - reflection_->mirror(cell_, cosine_of(v));
 }
 
-// Along two roughnesses the smaller loss is assumed.
-float Bsdf::glass_loss(const GlassSide& side, float cosine) const {
-  if (is_thin_) return mirror_loss(cosine);
-  const GlassTable& table = GlassTable::get();
-  const float albedo = table.albedo(glass_cell_x_, side.eta_cell, specular_, cosine);
-  if (is_isotropic_) return 1 - albedo;
-  return 1 - std::max(albedo, table.albedo(glass_cell_y_, side.eta_cell, specular_, cosine));
+float Bsdf::glass_loss(const GlassSide& side, const Vector3f& v) const {
+  if (is_thin_) return mirror_loss(v);
+  if (!is_isotropic_) return 1 - DrawnGlassTable::get().albedo(drawn_cell_, side.eta_cell, specular_, v);
+  return 1 - GlassTable::get().albedo(glass_cell_, side.eta_cell, specular_, cosine_of(v));
 }
 
-float Bsdf::layer_passes(float cosine) const {
+float Bsdf::layer_passes(const Vector3f& v) const {
   if (specular_ <= 0 || layer_eta_ <= 1) return 1;
-  if (alpha_x_ <= 0) return 1 - specular_ * fresnel_dielectric(cosine, layer_eta_).reflectance;
-  float reflected = reflection_->boundary(cell_x_, layer_eta_cell_, layer_eta_, cosine);
-  if (!is_isotropic_) {
-    reflected = std::max(reflected, reflection_->boundary(cell_y_, layer_eta_cell_, layer_eta_, cosine));
-  }
+  if (alpha_x_ <= 0) return 1 - specular_ * fresnel_dielectric(cosine_of(v), layer_eta_).reflectance;
+  const float reflected =
+      is_isotropic_ ? reflection_->boundary(cell_, layer_eta_cell_, layer_eta_, cosine_of(v))
+                    : DrawnReflectionTable::get().boundary(drawn_cell_, layer_eta_cell_, layer_eta_, v);
   return 1 - specular_ * reflected;
 }
 
@@ -278,26 +256,25 @@ float Bsdf::coat_passes(float cosine, bool is_inside) const {
 // goes round until it is out, hence the mean. With a white base nothing is lost, reversed it is the same
 // (Ashikhmin, Premoze and Shirley 2000, "A Microfacet-based BRDF Generator", equation 15, with the layer's
 // true albedo).
-Color3f Bsdf::matt_reflection(const View& view, float cosine) const {
+Color3f Bsdf::matt_reflection(const View& view, const Vector3f& i) const {
   Color3f result{0};
   if (opaque_ > 0) {
-    result = color_ * (opaque_ * view.layer_passes * layer_passes(cosine) / layer_mean_passes_);
+    result = color_ * (opaque_ * view.layer_passes * layer_passes(i) / layer_mean_passes_);
   }
   if (metal_ > 0 && mirror_mean_loss_ > 0) {
-    result += metal_multiple_ * (metal_ * view.mirror_loss * mirror_loss(cosine) / mirror_mean_loss_);
+    result += metal_multiple_ * (metal_ * view.mirror_loss * mirror_loss(i) / mirror_mean_loss_);
   }
   if (glass_ > 0 && sides_[view.side].mean_loss > 0) {
-    result += Color3f(glass_ * sides_[view.side].back * view.glass_loss *
-                      glass_loss(sides_[view.side], cosine) / sides_[view.side].mean_loss);
+    result += Color3f(glass_ * sides_[view.side].back * view.glass_loss * glass_loss(sides_[view.side], i) /
+                      sides_[view.side].mean_loss);
   }
   return result;
 }
 
-Color3f Bsdf::matt_transmission(const View& view, float cosine) const {
+Color3f Bsdf::matt_transmission(const View& view, const Vector3f& i) const {
   const float squeezed = is_thin_ ? 1.0F : sides_[view.side].eta * sides_[view.side].eta;
-  return color_ *
-         (glass_ * sides_[view.side].through * view.glass_loss * glass_loss(sides_[view.other_side], cosine) /
-          (sides_[view.other_side].mean_loss * squeezed));
+  return color_ * (glass_ * sides_[view.side].through * view.glass_loss *
+                   glass_loss(sides_[view.other_side], i) / (sides_[view.other_side].mean_loss * squeezed));
 }
 
 // --- what out sees
@@ -321,10 +298,10 @@ bool Bsdf::look_anew(const Vector3f& out, View& view) const {
   view.side = view.is_below && !is_thin_ ? 1 : 0;
   view.other_side = view.is_below || is_thin_ ? 0 : 1;
   view.coat_passes = coat_passes(view.o.z, view.is_inside);
-  view.layer_passes = opaque_ > 0 ? layer_passes(view.o.z) : 1.0F;
-  view.mirror_loss = mirror_mean_loss_ > 0 ? mirror_loss(view.o.z) : 0.0F;
+  view.layer_passes = opaque_ > 0 ? layer_passes(view.o) : 1.0F;
+  view.mirror_loss = mirror_mean_loss_ > 0 ? mirror_loss(view.o) : 0.0F;
   view.glass_loss =
-      glass_ > 0 && sides_[view.side].mean_loss > 0 ? glass_loss(sides_[view.side], view.o.z) : 0.0F;
+      glass_ > 0 && sides_[view.side].mean_loss > 0 ? glass_loss(sides_[view.side], view.o) : 0.0F;
   if (alpha_x_ > 0) view.eye = facets_.eye(view.o);
   choose_lobes(view);
   return true;
@@ -343,7 +320,7 @@ void Bsdf::choose_lobes(View& view) const {
     view.p_facet = below * (largest(view.smooth.reflected) + largest(view.smooth.through));
   } else {
     const float metal = metal_ > 0 ? metal_ * largest(metal_mean_) * (1 - view.mirror_loss) : 0.0F;
-    view.p_facet = below * (metal + opaque_ * (1 - view.layer_passes) + glass_);
+    view.p_facet = below * (metal + opaque_ * (1 - view.layer_passes) + glass_ * (1 - view.glass_loss));
   }
   float back = opaque_ * brightest * view.layer_passes + glass_ * sides_[view.side].back * view.glass_loss;
   if (metal_ > 0) back += metal_ * largest(metal_multiple_) * view.mirror_loss;
@@ -420,12 +397,12 @@ Bsdf::Scattered Bsdf::scatter(const View& view, const Vector3f& i) const {
   const float cosine = std::min(1.0F, std::abs(i.z));
   if (is_reflection) {
     if (view.p_back > 0) {
-      result = {matt_reflection(view, cosine) * cosine_pdf(cosine), view.p_back * cosine_pdf(cosine)};
+      result = {matt_reflection(view, i) * cosine_pdf(cosine), view.p_back * cosine_pdf(cosine)};
     }
     if (alpha_x_ > 0 && view.p_facet > 0) add_facet_reflection(view, i, result);
   } else {
     if (view.p_through > 0) {
-      result = {matt_transmission(view, cosine) * cosine_pdf(cosine), view.p_through * cosine_pdf(cosine)};
+      result = {matt_transmission(view, i) * cosine_pdf(cosine), view.p_through * cosine_pdf(cosine)};
     }
     if (alpha_x_ > 0 && glass_ > 0) {
       is_thin_ ? add_thin_transmission(view, i, result) : add_facet_transmission(view, i, result);

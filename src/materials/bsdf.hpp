@@ -2,6 +2,7 @@
 #pragma once
 
 #include "materials/albedo_tables.hpp"
+#include "materials/drawn_tables.hpp"
 #include "materials/fresnel.hpp"
 #include "materials/ggx.hpp"
 #include "raytracer/material.hpp"
@@ -101,18 +102,19 @@ class Bsdf {
 
   Color3f metal_fresnel(float cosine) const;
   FacetShares facet_shares(const View& view, float cosine) const;
+  // These take directions in the surface's own space, on either side.
   /// What a facet's reflection loses to masking, 0..1, to be made up for; of glass from its side.
-  float mirror_loss(float cosine) const;
-  float glass_loss(const GlassSide& side, float cosine) const;
-  float layer_passes(float cosine) const;
+  float mirror_loss(const Vector3f& v) const;
+  float glass_loss(const GlassSide& side, const Vector3f& v) const;
+  float layer_passes(const Vector3f& v) const;
   float coat_passes(float cosine, bool is_inside) const;
 
   /// Null if out is on the wrong side of a normal.
   const View* look(const Vector3f& out) const;
   bool look_anew(const Vector3f& out, View& view) const;
   void choose_lobes(View& view) const;
-  Color3f matt_reflection(const View& view, float cosine) const;
-  Color3f matt_transmission(const View& view, float cosine) const;
+  Color3f matt_reflection(const View& view, const Vector3f& i) const;
+  Color3f matt_transmission(const View& view, const Vector3f& i) const;
   void add_coat(const View& view, const Vector3f& i, Scattered& result) const;
   void add_facet_reflection(const View& view, const Vector3f& i, Scattered& result) const;
   void add_thin_transmission(const View& view, const Vector3f& i, Scattered& result) const;
@@ -147,7 +149,8 @@ class Bsdf {
   Color3f metal_multiple_;  // what of light held back by facets leaves at last
   float mirror_mean_loss_, layer_mean_passes_;
   const ReflectionTable* reflection_;
-  AlphaCell cell_x_, cell_y_, coat_cell_, glass_cell_x_, glass_cell_y_;
+  AlphaCell cell_, coat_cell_, glass_cell_;  // of one roughness
+  DrawnCell drawn_cell_;                     // of two
   AxisCell layer_eta_cell_, coat_eta_cell_;
   GlassSide sides_[2];  // outside, inside
 
