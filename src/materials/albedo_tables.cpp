@@ -7,29 +7,10 @@ namespace raytracer {
 namespace {
 
 constexpr float kLeastAlpha = 1e-4F;
-constexpr int kMeanPoints = 64;  // of the quadrature over cosines
-
 using Quadrature = FacetQuadrature<16, 32>;
 constexpr Quadrature kFacets{0.5F};  // alike all around, so half of them
 
-float interpolated(float low, float high, float weight) { return low + weight * (high - low); }
-
 Vector3f direction_at(float cosine) { return {std::sqrt(std::max(0.0F, 1 - cosine * cosine)), 0, cosine}; }
-
-/// The mean over diffuse light of a function of the cosine.
-template <typename Function>
-float diffuse_mean(const Function& function) {
-  float sum = 0;
-  for (int i = 0; i < kMeanPoints; ++i) {
-    sum += function(std::sqrt((static_cast<float>(i) + 0.5F) / kMeanPoints));
-  }
-  return sum / kMeanPoints;
-}
-
-AxisCell even_cell(float x, int count) {
-  const int node = std::clamp(static_cast<int>(x), 0, count - 2);
-  return {node, std::clamp(x - static_cast<float>(node), 0.0F, 1.0F)};
-}
 
 /// A cosine that the facets acting at `cosine` typically have; only has to be near it, see excess_.
 float typical_cosine(float cosine, float alpha) {
@@ -88,7 +69,7 @@ void ReflectionTable::fill(int row, int column) {
   std::array<float, std::tuple_size_v<Quadrature::Facets>> cosines{}, shares{};
   std::size_t count = 0;
   float all = 0;
-  kFacets.for_reflections(ggx, o, [&](float c, float share) {
+  kFacets.for_reflections(ggx, o, [&](float c, float share, const Vector3f&) {
     cosines[count] = c;
     shares[count++] = share;
     all += share;
@@ -134,7 +115,7 @@ float ReflectionTable::eta_of(int node) {
 AxisCell ReflectionTable::eta_cell(float eta) {
   const float x = std::sqrt(std::max(0.0F, eta - 1) / (eta + 1));
   const float steps = (x - kLeastEtaX) / kEtaStep;
-  return even_cell(steps + std::max(0.0F, steps - kWideEtaSteps), kEtas);
+  return AxisCell::at(steps + std::max(0.0F, steps - kWideEtaSteps), kEtas);
 }
 
 float ReflectionTable::boundary(const AlphaCell& alpha, const AxisCell& eta_cell, float eta,
@@ -202,7 +183,7 @@ float GlassTable::eta_of(int node) {
 AxisCell GlassTable::eta_cell(float eta) {
   const float log_eta = std::log(eta);
   const float x = std::copysign(std::sqrt(std::abs(log_eta)), log_eta);
-  return even_cell(x / kGlassStep + static_cast<float>(kEtas / 2), kEtas);
+  return AxisCell::at(x / kGlassStep + static_cast<float>(kEtas / 2), kEtas);
 }
 
 float GlassTable::albedo(const AlphaCell& alpha, const AxisCell& eta, float specular, float cosine) const {

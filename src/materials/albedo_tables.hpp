@@ -9,10 +9,18 @@
 
 namespace raytracer {
 
+inline float interpolated(float low, float high, float weight) { return low + weight * (high - low); }
+
 /// A place between two nodes of an axis.
 struct AxisCell {
   int node;      ///< the lower of the two
   float weight;  ///< of the upper, 0..1
+
+  /// The place `x`, counted in nodes, or the nearest of the axis.
+  static AxisCell at(float x, int count) {
+    const int node_below = std::clamp(static_cast<int>(x), 0, count - 2);
+    return {node_below, std::clamp(x - static_cast<float>(node_below), 0.0F, 1.0F)};
+  }
 };
 
 /// The alpha axis, a grid with nodes even in roughness. Also carries alpha itself, on which the axis of
@@ -21,9 +29,7 @@ struct AlphaCell : AxisCell {
   float alpha;
   AxisCell at_cosine(float cosine, int count) const {
     const float k = 2 * alpha;
-    const float x = std::sqrt(cosine * (1 + k) / (cosine + k)) * static_cast<float>(count - 1);
-    const int node_below = std::clamp(static_cast<int>(x), 0, count - 2);
-    return {node_below, std::clamp(x - static_cast<float>(node_below), 0.0F, 1.0F)};
+    return at(std::sqrt(cosine * (1 + k) / (cosine + k)) * static_cast<float>(count - 1), count);
   }
   /// The cosine of a node of that axis.
   static float cosine_of(int node, int count, float alpha) {

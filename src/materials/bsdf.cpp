@@ -128,7 +128,8 @@ void Bsdf::set_up_layers(const MaterialValues& material, float outside) {
   // Glass has its reflection even where no layer was spoken of.
   if (!material.has_layer && !(material.transmission > 0)) specular_ = 0;
   if (layer_eta_ < 1.0005F) layer_eta_ = 1;
-  layer_mean_passes_ = 1;
+  layer_mean_passes_ = coat_mean_passes_ = 1;
+  coat_mean_loss_ = 0;
   const bool has_layer = opaque_ > 0 && specular_ > 0 && layer_eta_ > 1;
   if (alpha_x_ > 0 || has_layer || coat_ > 0) {
     reflection_ = &ReflectionTable::get();
@@ -146,6 +147,19 @@ void Bsdf::set_up_layers(const MaterialValues& material, float outside) {
   coat_eta_ = std::max(coat_eta, 1 / coat_eta);
   coat_cell_ = ReflectionTable::Grid::cell_of(coat_alpha_);
   coat_eta_cell_ = ReflectionTable::eta_cell(coat_eta_);
+  coat_mean_passes_ = 1 - coat_ * reflection_->boundary_mean(coat_cell_, coat_eta_cell_);
+  if (metal_ > 0 && alpha_x_ > 0 && has_compensation_) set_up_coat_loss();
+}
+
+// The table is of coats in air; elsewhere they reflect less, and as much less is lost.
+void Bsdf::set_up_coat_loss() {
+  const CoatTable& table = CoatTable::get();
+  const float in_air = reflection_->boundary_mean(coat_cell_, ReflectionTable::eta_cell(kCoatIor));
+  coat_loss_share_ = std::min(coat_, (1 - coat_mean_passes_) / in_air);
+  coat_loss_cell_ = CoatTable::coat_cell(coat_alpha_);
+  coat_base_cell_ = CoatTable::Grid::cell_of(is_isotropic_ ? alpha_x_ : drawn_cell_.reflection.alpha);
+  coat_mean_loss_ = coat_loss_share_ * table.mean(coat_base_cell_, coat_loss_cell_);
+  if (coat_mean_loss_ < kLeastLoss) coat_mean_loss_ = 0;
 }
 
 // Light between facets, Kulla and Conty 2017: what facets hold back, 1 - E, comes back from a matt lobe
@@ -222,6 +236,11 @@ Bsdf::FacetShares Bsdf::facet_shares(const View& view, float cosine) const {
     if (is_thin_) reflectance = both_faces(reflectance);
     shares.reflected += Color3f(glass_ * reflectance);
     shares.through = glass_ * (1 - reflectance) * color_;
+    // From inside, what goes through meets the coat beyond, which throws its share back.
+    if (coat_ > 0 && view.is_inside) {
+      const float passes = coat_passes(boundary.cosine_through, false);
+      shares.reflected += (1 - passes) * shares.through * color_;
+    }
   }
   return shares;
 }
@@ -252,21 +271,46 @@ float Bsdf::coat_passes(float cosine, bool is_inside) const {
   return 1 - coat_ * reflection_->boundary(coat_cell_, coat_eta_cell_, coat_eta_, cosine);
 }
 
+float Bsdf::coat_loss(const Vector3f& v) const {
+  return coat_loss_share_ * CoatTable::get().loss(coat_base_cell_, coat_loss_cell_, cosine_of(v));
+}
+
+// Light from a matt lobe below the coat: what goes in at o and comes out at i, and what the coat throws back
+// from below, the share 1 - T of diffuse light, and the lobe returns again: a geometric series, T(o) T(i)
+// (1 + a (1 - T) + ...). With a white lobe nothing is lost, and reversed it is the same (as Kulla and Conty
+// 2017 do between facets; the coat does not bend light here, so its mean is the same from below).
+Color3f Bsdf::coated(const View& view, float i_passes, const Color3f& albedo) const {
+  return view.coat_passes * i_passes / (Color3f(1) - albedo * (1 - coat_mean_passes_));
+}
+
 // The base under its layer: what goes in at o and comes out at i, and what the layer throws back from below
 // goes round until it is out, hence the mean. With a white base nothing is lost, reversed it is the same
 // (Ashikhmin, Premoze and Shirley 2000, "A Microfacet-based BRDF Generator", equation 15, with the layer's
 // true albedo).
-Color3f Bsdf::matt_reflection(const View& view, const Vector3f& i) const {
+Color3f Bsdf::matt_reflection(const View& view, const Vector3f& i, float i_passes) const {
+  const bool has_coat = coat_ > 0 && !view.is_inside;
   Color3f result{0};
   if (opaque_ > 0) {
     result = color_ * (opaque_ * view.layer_passes * layer_passes(i) / layer_mean_passes_);
+    if (has_coat) result *= coated(view, i_passes, color_);
   }
   if (metal_ > 0 && mirror_mean_loss_ > 0) {
-    result += metal_multiple_ * (metal_ * view.mirror_loss * mirror_loss(i) / mirror_mean_loss_);
+    Color3f metal = metal_multiple_ * (metal_ * view.mirror_loss * mirror_loss(i) / mirror_mean_loss_);
+    if (has_coat) metal *= coated(view, i_passes, metal_mean_);
+    result += metal;
   }
-  if (glass_ > 0 && sides_[view.side].mean_loss > 0) {
-    result += Color3f(glass_ * sides_[view.side].back * view.glass_loss * glass_loss(sides_[view.side], i) /
-                      sides_[view.side].mean_loss);
+  // What facets return and the coat throws back, they return once more.
+  if (metal_ > 0 && view.coat_loss > 0) {
+    result += metal_mean_ * metal_mean_ * (metal_ * view.coat_loss * coat_loss(i) / coat_mean_loss_);
+  }
+  const GlassSide& side = sides_[view.side];
+  if (glass_ > 0 && side.mean_loss > 0) {
+    // From inside, what a coat beyond throws back comes here, too.
+    const float thrown_back = view.is_inside ? side.through * (1 - coat_mean_passes_) : 0.0F;
+    Color3f glass(glass_ * view.glass_loss * glass_loss(side, i) / side.mean_loss);
+    glass *= Color3f(side.back) + thrown_back * color_ * color_;
+    if (has_coat) glass *= coated(view, i_passes, Color3f(1));
+    result += glass;
   }
   return result;
 }
@@ -302,6 +346,7 @@ bool Bsdf::look_anew(const Vector3f& out, View& view) const {
   view.mirror_loss = mirror_mean_loss_ > 0 ? mirror_loss(view.o) : 0.0F;
   view.glass_loss =
       glass_ > 0 && sides_[view.side].mean_loss > 0 ? glass_loss(sides_[view.side], view.o) : 0.0F;
+  view.coat_loss = coat_mean_loss_ > 0 && !view.is_inside ? coat_loss(view.o) : 0.0F;
   if (alpha_x_ > 0) view.eye = facets_.eye(view.o);
   choose_lobes(view);
   return true;
@@ -325,6 +370,7 @@ void Bsdf::choose_lobes(View& view) const {
   float back = opaque_ * brightest * view.layer_passes + glass_ * sides_[view.side].back * view.glass_loss;
   if (metal_ > 0) back += metal_ * largest(metal_multiple_) * view.mirror_loss;
   view.p_back = below * back;
+  if (view.coat_loss > 0) view.p_back += metal_ * largest(metal_mean_ * metal_mean_) * view.coat_loss;
   view.p_through = below * glass_ * sides_[view.side].through * view.glass_loss * brightest;
   const float sum =
       view.p_mirror + view.p_passing + view.p_coat + view.p_facet + view.p_back + view.p_through;
@@ -389,31 +435,32 @@ void Bsdf::add_facet_transmission(const View& view, const Vector3f& i, Scattered
                 facets_.visible_pdf(view.eye, c, density) * jacobian * eta * eta;
 }
 
-// What lies below the coat gets the lesser of what the coat lets through on both ways: as good as the way in
-// alone for what is mirrored, reversible, and never more than came in.
+// What facets below the coat return gets the lesser of what the coat lets through on both ways: as good as
+// the way in alone for what is mirrored, reversible, and never more than came in.
 Bsdf::Scattered Bsdf::scatter(const View& view, const Vector3f& i) const {
-  Scattered result;
   const bool is_reflection = i.z > 0;
   const float cosine = std::min(1.0F, std::abs(i.z));
+  const bool is_i_inside = !is_thin_ && (glass_ > 0 || passing_ > 0) && view.is_below == is_reflection;
+  const float i_passes = coat_passes(cosine, is_i_inside);
+  Scattered matt, facets;
   if (is_reflection) {
     if (view.p_back > 0) {
-      result = {matt_reflection(view, i) * cosine_pdf(cosine), view.p_back * cosine_pdf(cosine)};
+      matt = {matt_reflection(view, i, i_passes) * cosine_pdf(cosine), view.p_back * cosine_pdf(cosine)};
     }
-    if (alpha_x_ > 0 && view.p_facet > 0) add_facet_reflection(view, i, result);
+    if (alpha_x_ > 0 && view.p_facet > 0) add_facet_reflection(view, i, facets);
   } else {
     if (view.p_through > 0) {
-      result = {matt_transmission(view, i) * cosine_pdf(cosine), view.p_through * cosine_pdf(cosine)};
+      facets = {matt_transmission(view, i) * cosine_pdf(cosine), view.p_through * cosine_pdf(cosine)};
     }
     if (alpha_x_ > 0 && glass_ > 0) {
-      is_thin_ ? add_thin_transmission(view, i, result) : add_facet_transmission(view, i, result);
+      is_thin_ ? add_thin_transmission(view, i, facets) : add_facet_transmission(view, i, facets);
     }
   }
   if (coat_ > 0) {
-    const bool is_i_inside = !is_thin_ && (glass_ > 0 || passing_ > 0) && view.is_below == is_reflection;
-    result.value *= std::min(view.coat_passes, coat_passes(cosine, is_i_inside));
-    if (is_reflection && coat_alpha_ > 0 && view.p_coat > 0) add_coat(view, i, result);
+    facets.value *= std::min(view.coat_passes, i_passes);
+    if (is_reflection && coat_alpha_ > 0 && view.p_coat > 0) add_coat(view, i, matt);
   }
-  return result;
+  return {matt.value + facets.value, matt.pdf + facets.pdf};
 }
 
 Bsdf::Scattered Bsdf::scatter(const Vector3f& out, const Vector3f& in) const {

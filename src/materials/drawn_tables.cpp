@@ -15,13 +15,6 @@ constexpr int kMeanCosines = 24, kMeanTurns = 12;  // points of the quadrature o
 using Quadrature = FacetQuadrature<16, 16>;
 constexpr Quadrature kFacets;
 
-float interpolated(float low, float high, float weight) { return low + weight * (high - low); }
-
-AxisCell cell_at(float x, int count) {
-  const int node = std::clamp(static_cast<int>(x), 0, count - 2);
-  return {node, std::clamp(x - static_cast<float>(node), 0.0F, 1.0F)};
-}
-
 float position(const AxisCell& cell) { return static_cast<float>(cell.node) + cell.weight; }
 
 float root_mean_square(float a, float b) { return std::sqrt(0.5F * (a * a + b * b)); }
@@ -58,8 +51,8 @@ float fresnel_of_facets(const AlphaCell& alpha, const AxisCell& eta_cell, float 
 
 DrawnCell::DrawnCell(float x, float y) : alpha_x(x), alpha_y(y) {
   const float greater = std::max(x, y), other = std::min(x, y);
-  wide = cell_at(std::sqrt(greater) * (DrawnGrid::kWide - 1), DrawnGrid::kWide);
-  ratio = cell_at(std::sqrt(other / greater) * (DrawnGrid::kRatios - 1), DrawnGrid::kRatios);
+  wide = AxisCell::at(std::sqrt(greater) * (DrawnGrid::kWide - 1), DrawnGrid::kWide);
+  ratio = AxisCell::at(std::sqrt(other / greater) * (DrawnGrid::kRatios - 1), DrawnGrid::kRatios);
   const float even = root_mean_square(x, y);
   reflection = ReflectionTable::Grid::cell_of(even);
   glass = GlassTable::Grid::cell_of(even);
@@ -72,7 +65,7 @@ DrawnGrid::Place DrawnGrid::place(const DrawnCell& cell, const Vector3f& v) {
   const float sine = std::sqrt(v.x * v.x + v.y * v.y);
   const float turn = sine > 0 ? std::min(1.0F, component / sine) : 0.0F;
   return {cell.wide, cell.ratio, cell.reflection.at_cosine(cosine_of(v), kCosines),
-          cell_at(turn * (kTurns - 1), kTurns)};
+          AxisCell::at(turn * (kTurns - 1), kTurns)};
 }
 
 float DrawnGrid::at(const Place& place) const {
@@ -157,7 +150,7 @@ DrawnReflectionTable::DrawnReflectionTable() {
   DrawnGrid::for_nodes([&](std::size_t index, float wide, float narrow, const Vector3f& o) {
     float all = 0;
     std::array<float, kEtas> reflected{};
-    kFacets.for_reflections(Ggx(wide, narrow), o, [&](float c, float share) {
+    kFacets.for_reflections(Ggx(wide, narrow), o, [&](float c, float share, const Vector3f&) {
       all += share;
       for (std::size_t e = 0; e < kEtas; ++e) {
         reflected[e] += share * fresnel_dielectric(c, etas[e]).reflectance;
@@ -181,7 +174,7 @@ DrawnReflectionTable::DrawnReflectionTable() {
 }
 
 AxisCell DrawnReflectionTable::coarse(const AxisCell& eta_cell) {
-  return cell_at(position(eta_cell) / kEtaStep, kEtas);
+  return AxisCell::at(position(eta_cell) / kEtaStep, kEtas);
 }
 
 float DrawnReflectionTable::mirror(const DrawnCell& cell, const DrawnGrid::Place& place, float cosine) const {
@@ -241,7 +234,7 @@ DrawnGlassTable::DrawnGlassTable() {
 }
 
 AxisCell DrawnGlassTable::coarse(const AxisCell& eta) {
-  return cell_at(std::max(0.0F, position(eta) - kFirstEta) / kEtaStep, kEtas);
+  return AxisCell::at(std::max(0.0F, position(eta) - kFirstEta) / kEtaStep, kEtas);
 }
 
 float DrawnGlassTable::albedo(const DrawnCell& cell, const AxisCell& eta, float specular,

@@ -1,7 +1,8 @@
 // How much light rough surfaces with two roughnesses return in all. No single roughness stands for two: what
 // is seen depends on the one along the direction, what it loses on the way out on the one across. So what the
 // two do differently from one in their place, their root mean square, is tabulated over both roughnesses, the
-// cosine and the turn about the normal; it is smooth, and few nodes do.
+// cosine and the turn about the normal; it is smooth, and few nodes do. With it the compensation of Kulla and
+// Conty 2017 ("Revisiting Physically Based Shading at Imageworks") holds for two roughnesses as for one.
 #pragma once
 
 #include <array>

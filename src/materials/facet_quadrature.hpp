@@ -1,4 +1,4 @@
-// Sums over the facets that a direction sees, for the albedo tables.
+// Sums over the facets that a direction sees and over directions, for the albedo tables.
 #pragma once
 
 #include <array>
@@ -8,6 +8,17 @@
 #include "materials/ggx.hpp"
 
 namespace raytracer {
+
+/// The mean over diffuse light of a function of the cosine.
+template <typename Function>
+float diffuse_mean(const Function& function) {
+  constexpr int kPoints = 64;
+  float sum = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    sum += function(std::sqrt((static_cast<float>(i) + 0.5F) / kPoints));
+  }
+  return sum / kPoints;
+}
 
 /// A rule of `Around` x `Up` points over facets. `Turns`: 1, or 1/2 where the other half is the mirror image.
 template <int Around, int Up>
@@ -27,8 +38,8 @@ struct FacetQuadrature {
     }
   }
 
-  /// Calls use(cosine of o to the facet, share) for the facets of a mirror that reflect o upwards; the
-  /// shares' sum is the mirror's albedo.
+  /// Calls use(cosine of o to the facet, share, direction) for the facets of a mirror that reflect o upwards;
+  /// the shares' sum is the mirror's albedo.
   template <typename Use>
   void for_reflections(const Ggx& ggx, const Vector3f& o, const Use& use) const {
     const Ggx::Eye eye = ggx.eye(o);
@@ -38,8 +49,8 @@ struct FacetQuadrature {
       const Vector3f i = 2 * c * h - o;
       if (!(i.z > 0)) return;
       const float density = ggx.density(h);
-      use(c,
-          weight * density * i.z * ggx.joint_visibility(eye, i) / ggx.bounded_reflection_pdf(eye, density));
+      const float value = density * i.z * ggx.joint_visibility(eye, i);
+      use(c, weight * value / ggx.bounded_reflection_pdf(eye, density), i);
     });
   }
 

@@ -135,6 +135,44 @@ TEST_CASE("drawn glass shows the sky, from outside at every angle, from inside i
   }
 }
 
+TEST_CASE("under its coat, white stays white", "[bsdf]") {
+  Case base{"matt", Material{}};
+  base.material.color = Color3f(1);
+  for (const float coat : {0.5F, 1.0F}) {
+    for (const float coat_roughness : {0.0F, 0.3F, 0.7F}) {
+      for (const Case& c :
+           {base, white(plastic(0)), white(plastic(0.5F)), white(metal(0)), white(metal(0.3F)),
+            white(metal(0.7F)), white(metal(0.4F, 0.6F)), white(thin_glass(0)), glass(0)}) {
+        const Case over = coated(c, coat, coat_roughness);
+        const Bsdf bsdf(over.material, frame_over(c.inside));
+        for (const float cosine : {1.0F, 0.7F, 0.4F, 0.1F}) {
+          INFO(text(over) << ", coat " << coat << " of roughness " << coat_roughness << ", cosine "
+                          << cosine);
+          const Albedo seen = albedo(bsdf, toward(cosine), 40, c.inside * c.inside);
+          CHECK(std::abs(seen.mean.x - 1) < 0.01F + 3 * seen.error);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("glass under its coat loses nothing from inside either", "[bsdf]") {
+  for (const float roughness : {0.0F, 0.3F, 0.7F}) {
+    const Case c = coated(glass(roughness), 1, 0);
+    const Bsdf bsdf(c.material, frame_over(c.inside));
+    for (const float side : {1.0F, -1.0F}) {
+      for (const float cosine : {1.0F, 0.8F, 0.6F, 0.3F}) {
+        INFO(text(c) << ", cosine " << side * cosine);
+        const Albedo seen = albedo(bsdf, toward(side * cosine), 40, c.inside * c.inside);
+        const float expected = side > 0 ? 1.0F : c.inside * c.inside;
+        // Rough: what is thrown back is not bent as what goes out is.
+        const float tolerance = roughness > 0 ? 0.03F : 0.005F;
+        CHECK(std::abs(seen.mean.x / expected - 1) < tolerance + 3 * seen.error / expected);
+      }
+    }
+  }
+}
+
 TEST_CASE("clear and rough glass shows the sky, from outside and from inside", "[bsdf]") {
   for (const float roughness : {0.0F, 0.1F, 0.3F, 0.6F, 1.0F}) {
     for (const float ior : {1.1F, 1.33F, 1.5F, 2.4F, 4.0F}) {
