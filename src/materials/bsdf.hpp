@@ -70,6 +70,12 @@ class Bsdf {
   /// Shares of light of what facets reflect and let through.
   struct FacetShares {
     Color3f reflected, through;
+    /// How often to choose reflection, by the largest channels.
+    float reflect_probability() const {
+      const float r = std::max(reflected.x, std::max(reflected.y, reflected.z));
+      const float t = std::max(through.x, std::max(through.y, through.z));
+      return t > 0 ? r / (r + t) : 1.0F;
+    }
   };
   /// What the glass does to light from one side of the surface.
   struct GlassSide {
