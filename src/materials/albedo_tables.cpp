@@ -1,47 +1,16 @@
 #include "materials/albedo_tables.hpp"
 
-#include "materials/fresnel.hpp"
-#include "materials/ggx.hpp"
+#include "materials/facet_quadrature.hpp"
 
 namespace raytracer {
 
 namespace {
 
 constexpr float kLeastAlpha = 1e-4F;
-constexpr int kAround = 16, kUp = 32;  // points of the quadrature over facets
-constexpr int kMeanPoints = 64;        // and of that over cosines
-
-float interpolated(float low, float high, float weight) { return low + weight * (high - low); }
+using Quadrature = FacetQuadrature<16, 32>;
+constexpr Quadrature kFacets{0.5F};  // alike all around, so half of them
 
 Vector3f direction_at(float cosine) { return {std::sqrt(std::max(0.0F, 1 - cosine * cosine)), 0, cosine}; }
-
-/// Calls use(u, weight) for points of the left half of the unit square (the right one is its mirror image),
-/// closer together towards u.y = 1, where facets turn away; the weights' sum is 1.
-template <typename Use>
-void for_points(const Use& use) {
-  for (int j = 0; j < kUp; ++j) {
-    const float rest = 1 - (static_cast<float>(j) + 0.5F) / kUp;
-    for (int i = 0; i < kAround; ++i) {
-      use(Vector2f((static_cast<float>(i) + 0.5F) / (2 * kAround), 1 - rest * rest),
-          2 * rest / (kAround * kUp));
-    }
-  }
-}
-
-/// The mean over diffuse light of a function of the cosine.
-template <typename Function>
-float diffuse_mean(const Function& function) {
-  float sum = 0;
-  for (int i = 0; i < kMeanPoints; ++i) {
-    sum += function(std::sqrt((static_cast<float>(i) + 0.5F) / kMeanPoints));
-  }
-  return sum / kMeanPoints;
-}
-
-AxisCell even_cell(float x, int count) {
-  const int node = std::clamp(static_cast<int>(x), 0, count - 2);
-  return {node, std::clamp(x - static_cast<float>(node), 0.0F, 1.0F)};
-}
 
 /// A cosine that the facets acting at `cosine` typically have; only has to be near it, see excess_.
 float typical_cosine(float cosine, float alpha) {
@@ -50,56 +19,14 @@ float typical_cosine(float cosine, float alpha) {
 }
 
 // The eta axis of boundaries: even in sqrt((eta - 1) / (eta + 1)), since near 1 the reflectance at grazing
-// depends on cosine / sqrt(eta^2 - 1).
-constexpr float kLeastEtaX = 0.0995037F, kGreatestEtaX = 0.7745967F;  // of eta 1.02 and 4
+// depends on cosine / sqrt(eta^2 - 1). The last steps are half as wide: from 4 on, what little is not
+// reflected is what counts. The last node is beyond any index that a material can have.
+constexpr float kLeastEtaX = 0.0995037F, kEtaStep = 0.0750103F;  // of eta 1.02
+constexpr int kWideEtaSteps = 9;                                 // to eta 4
 
-float boundary_eta(int node) {
-  const float x =
-      interpolated(kLeastEtaX, kGreatestEtaX, static_cast<float>(node) / (ReflectionTable::kEtas - 1));
-  return (1 + x * x) / (1 - x * x);
-}
-
-// The eta axis of glass: 1/3 .. 3, even in the root of the logarithm, so closer together about 1, where total
+// The eta axis of glass, even in the root of the logarithm, so closer together about 1, where total
 // reflection begins.
-constexpr float kGlassLogRange = 1.0986123F;
-
-float glass_eta(int node) {
-  const float x = 2 * static_cast<float>(node) / (GlassTable::kEtas - 1) - 1;
-  return std::exp(std::copysign(kGlassLogRange * x * x, x));
-}
-
-/// What a facet does that a rough pane shows.
-struct Facet {
-  Vector3f normal;
-  float cosine;            ///< of the direction looked from
-  float weight;            ///< the weights' sum is 1
-  float reflection_shows;  ///< the share of reflected light that no other facet holds back
-};
-
-int find_facets(const Ggx& ggx, const Vector3f& o, std::array<Facet, kAround * kUp>& facets) {
-  const Ggx::Eye eye = ggx.eye(o);
-  int count = 0;
-  for_points([&](const Vector2f& u, float weight) {
-    const Vector3f h = ggx.sample_visible(eye, u);
-    const float c = std::min(1.0F, glm::dot(o, h));
-    if (!(c > 0)) return;
-    const Vector3f i = 2 * c * h - o;
-    const float shows = i.z > 0 ? 4 * o.z * i.z * ggx.joint_visibility(eye, i) / ggx.visible(eye) : 0.0F;
-    facets[static_cast<std::size_t>(count++)] = {h, c, weight, shows};
-  });
-  return count;
-}
-
-/// What such a facet of glass reflects and refracts in all: with Fresnel's reflection, and without any but
-/// total reflection.
-Vector2f glass_shares(const Ggx& ggx, const Vector3f& o, const Facet& facet, float eta) {
-  const Boundary boundary = fresnel_dielectric(facet.cosine, eta);
-  if (boundary.is_total) return Vector2f(facet.weight * facet.reflection_shows);
-  const Vector3f through = (facet.cosine / eta - boundary.cosine_through) * facet.normal - o / eta;
-  const float refraction_shows = through.z < 0 ? ggx.visible(through) : 0.0F;
-  const float both = interpolated(refraction_shows, facet.reflection_shows, boundary.reflectance);
-  return facet.weight * Vector2f(both, refraction_shows);
-}
+constexpr float kGlassStep = 0.0873460F;  // twelve steps to 3
 
 }  // namespace
 
@@ -108,12 +35,6 @@ float AlbedoGrid<Count>::alpha_of(int row) {
   constexpr float kStep = 1.0F / (Count - 1);
   const float roughness = static_cast<float>(row) * kStep;
   return std::max(kLeastAlpha, roughness * roughness);
-}
-
-template <int Count>
-float AlbedoGrid<Count>::cosine_of(int column, float alpha) {
-  const float k = 2 * alpha, x = static_cast<float>(column) / (Count - 1), x2 = x * x;
-  return std::clamp(x2 * k / (1 + k - x2), 1e-6F, 1.0F);
 }
 
 template <int Count>
@@ -142,21 +63,13 @@ ReflectionTable::ReflectionTable() {
 }
 
 void ReflectionTable::fill(int row, int column) {
-  const float alpha = Grid::alpha_of(row), cosine = Grid::cosine_of(column, alpha);
+  const float alpha = Grid::alpha_of(row), cosine = AlphaCell::cosine_of(column, kCount, alpha);
   const Ggx ggx(alpha, alpha);
   const Vector3f o = direction_at(cosine);
-  const Ggx::Eye eye = ggx.eye(o);
-  std::array<float, kAround * kUp> cosines{}, shares{};
+  std::array<float, std::tuple_size_v<Quadrature::Facets>> cosines{}, shares{};
   std::size_t count = 0;
   float all = 0;
-  for_points([&](const Vector2f& u, float weight) {
-    const Vector3f h = ggx.sample_bounded(eye, u);
-    const float c = std::min(1.0F, glm::dot(o, h));
-    const Vector3f i = 2 * c * h - o;
-    if (!(i.z > 0)) return;
-    const float density = ggx.density(h);
-    const float share =
-        weight * density * i.z * ggx.joint_visibility(eye, i) / ggx.bounded_reflection_pdf(eye, density);
+  kFacets.for_reflections(ggx, o, [&](float c, float share, const Vector3f&) {
     cosines[count] = c;
     shares[count++] = share;
     all += share;
@@ -164,7 +77,7 @@ void ReflectionTable::fill(int row, int column) {
   const auto index = static_cast<std::size_t>(row * kCount + column);
   mirror_.values[index] = std::min(1.0F, all);
   for (int e = 0; e < kEtas; ++e) {
-    const float eta = boundary_eta(e);
+    const float eta = eta_of(e);
     float reflected = 0;
     for (std::size_t k = 0; k < count; ++k) {
       reflected += shares[k] * fresnel_dielectric(cosines[k], eta).reflectance;
@@ -180,7 +93,7 @@ void ReflectionTable::take_means() {
     const AlphaCell cell = Grid::cell_of(Grid::alpha_of(row));
     mirror_mean_[r] = diffuse_mean([&](float cosine) { return mirror(cell, cosine); });
     for (int e = 0; e < kEtas; ++e) {
-      const float eta = boundary_eta(e);
+      const float eta = eta_of(e);
       boundary_mean_[static_cast<std::size_t>(e)][r] =
           diffuse_mean([&](float cosine) { return boundary(cell, eta_cell(eta), eta, cosine); });
     }
@@ -192,9 +105,17 @@ float ReflectionTable::mirror_mean(const AlphaCell& alpha) const {
   return interpolated(mirror_mean_[row], mirror_mean_[row + 1], alpha.weight);
 }
 
+float ReflectionTable::eta_of(int node) {
+  const int narrow_steps = std::max(0, node - kWideEtaSteps);
+  const float x =
+      kLeastEtaX + kEtaStep * (static_cast<float>(node) - 0.5F * static_cast<float>(narrow_steps));
+  return (1 + x * x) / (1 - x * x);
+}
+
 AxisCell ReflectionTable::eta_cell(float eta) {
   const float x = std::sqrt(std::max(0.0F, eta - 1) / (eta + 1));
-  return even_cell((x - kLeastEtaX) / (kGreatestEtaX - kLeastEtaX) * (kEtas - 1), kEtas);
+  const float steps = (x - kLeastEtaX) / kEtaStep;
+  return AxisCell::at(steps + std::max(0.0F, steps - kWideEtaSteps), kEtas);
 }
 
 float ReflectionTable::boundary(const AlphaCell& alpha, const AxisCell& eta_cell, float eta,
@@ -241,23 +162,28 @@ GlassTable::GlassTable() {
 void GlassTable::fill(int row, int column) {
   const float alpha = Grid::alpha_of(row);
   const Ggx ggx(alpha, alpha);
-  const Vector3f o = direction_at(Grid::cosine_of(column, alpha));
-  std::array<Facet, kAround * kUp> facets;
-  const int count = find_facets(ggx, o, facets);
+  const Vector3f o = direction_at(AlphaCell::cosine_of(column, kCount, alpha));
+  Quadrature::Facets facets;
+  const std::size_t count = kFacets.find_facets(ggx, o, facets);
   for (int e = 0; e < kEtas; ++e) {
-    const float eta = glass_eta(e);
+    const float eta = eta_of(e);
     Vector2f sum(0);
-    for (int k = 0; k < count; ++k) sum += glass_shares(ggx, o, facets[static_cast<std::size_t>(k)], eta);
+    for (std::size_t k = 0; k < count; ++k) sum += Quadrature::glass_shares(ggx, o, facets[k], eta);
     const auto index = static_cast<std::size_t>(row * kCount + column);
     with_reflection_[static_cast<std::size_t>(e)].values[index] = std::min(1.0F, sum.x);
     without_[static_cast<std::size_t>(e)].values[index] = std::min(1.0F, sum.y);
   }
 }
 
+float GlassTable::eta_of(int node) {
+  const float x = kGlassStep * static_cast<float>(node - kEtas / 2);
+  return std::exp(std::copysign(x * x, x));
+}
+
 AxisCell GlassTable::eta_cell(float eta) {
   const float log_eta = std::log(eta);
-  const float x = std::copysign(std::sqrt(std::abs(log_eta) / kGlassLogRange), log_eta);
-  return even_cell((x + 1) * 0.5F * (kEtas - 1), kEtas);
+  const float x = std::copysign(std::sqrt(std::abs(log_eta)), log_eta);
+  return AxisCell::at(x / kGlassStep + static_cast<float>(kEtas / 2), kEtas);
 }
 
 float GlassTable::albedo(const AlphaCell& alpha, const AxisCell& eta, float specular, float cosine) const {

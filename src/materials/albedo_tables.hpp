@@ -9,10 +9,18 @@
 
 namespace raytracer {
 
+inline float interpolated(float low, float high, float weight) { return low + weight * (high - low); }
+
 /// A place between two nodes of an axis.
 struct AxisCell {
   int node;      ///< the lower of the two
   float weight;  ///< of the upper, 0..1
+
+  /// The place `x`, counted in nodes, or the nearest of the axis.
+  static AxisCell at(float x, int count) {
+    const int node_below = std::clamp(static_cast<int>(x), 0, count - 2);
+    return {node_below, std::clamp(x - static_cast<float>(node_below), 0.0F, 1.0F)};
+  }
 };
 
 /// The alpha axis, a grid with nodes even in roughness. Also carries alpha itself, on which the axis of
@@ -21,9 +29,12 @@ struct AlphaCell : AxisCell {
   float alpha;
   AxisCell at_cosine(float cosine, int count) const {
     const float k = 2 * alpha;
-    const float x = std::sqrt(cosine * (1 + k) / (cosine + k)) * static_cast<float>(count - 1);
-    const int node_below = std::clamp(static_cast<int>(x), 0, count - 2);
-    return {node_below, std::clamp(x - static_cast<float>(node_below), 0.0F, 1.0F)};
+    return at(std::sqrt(cosine * (1 + k) / (cosine + k)) * static_cast<float>(count - 1), count);
+  }
+  /// The cosine of a node of that axis.
+  static float cosine_of(int node, int count, float alpha) {
+    const float k = 2 * alpha, x = static_cast<float>(node) / static_cast<float>(count - 1), x2 = x * x;
+    return std::clamp(x2 * k / (1 + k - x2), 1e-6F, 1.0F);
   }
 };
 
@@ -33,7 +44,6 @@ struct AlbedoGrid {
   std::array<float, Count * Count> values{};
 
   static float alpha_of(int row);
-  static float cosine_of(int column, float alpha);
   static AlphaCell cell_of(float alpha);
 
   float at(const AlphaCell& row, const AxisCell& column) const {
@@ -47,7 +57,7 @@ struct AlbedoGrid {
 /// Rough mirrors, and the rough boundary above an opaque base.
 class ReflectionTable {
  public:
-  static constexpr int kCount = 24, kEtas = 10;
+  static constexpr int kCount = 24, kEtas = 16;
   using Grid = AlbedoGrid<kCount>;
 
   /// Made by the first call; any thread may call.
@@ -63,6 +73,7 @@ class ReflectionTable {
   /// Where a boundary stands among the tables. Below the first, eta 1.02, the first counts: never too little
   /// is held for reflected.
   static AxisCell eta_cell(float eta);
+  static float eta_of(int node);
   /// Of a boundary with Fresnel's reflectance, eta >= 1.
   float boundary(const AlphaCell& alpha, const AxisCell& eta_cell, float eta, float cosine) const;
   float boundary_mean(const AlphaCell& alpha, const AxisCell& eta_cell) const;
@@ -82,13 +93,14 @@ class ReflectionTable {
 /// Rough glass: reflected and refracted light together.
 class GlassTable {
  public:
-  static constexpr int kCount = 16, kEtas = 13;
+  static constexpr int kCount = 16, kEtas = 29;
   using Grid = AlbedoGrid<kCount>;
 
   static const GlassTable& get();
 
-  /// eta: the index behind over the one before. Beyond the tables, 1/3 .. 3, the last counts.
+  /// eta: the index behind over the one before. Beyond the tables, 1/4.4 .. 4.4, the last counts.
   static AxisCell eta_cell(float eta);
+  static float eta_of(int node);
   /// `specular`: the share of Fresnel's reflection that is there, the rest is refracted.
   float albedo(const AlphaCell& alpha, const AxisCell& eta, float specular, float cosine) const;
   float mean(const AlphaCell& alpha, const AxisCell& eta, float specular) const;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "materials/albedo_tables.hpp"
+#include "materials/coat_table.hpp"
+#include "materials/drawn_tables.hpp"
 #include "materials/fresnel.hpp"
 #include "materials/ggx.hpp"
 #include "raytracer/material.hpp"
@@ -68,6 +70,12 @@ class Bsdf {
   /// Shares of light of what facets reflect and let through.
   struct FacetShares {
     Color3f reflected, through;
+    /// How often to choose reflection, by the largest channels.
+    float reflect_probability() const {
+      const float r = std::max(reflected.x, std::max(reflected.y, reflected.z));
+      const float t = std::max(through.x, std::max(through.y, through.z));
+      return t > 0 ? r / (r + t) : 1.0F;
+    }
   };
   /// What the glass does to light from one side of the surface.
   struct GlassSide {
@@ -86,7 +94,7 @@ class Bsdf {
     int side, other_side;  ///< of sides_, where out is and beyond
     Ggx::Eye eye;          ///< of rough facets
     FacetShares smooth;    ///< of smooth facets
-    float coat_passes, layer_passes, mirror_loss, glass_loss;
+    float coat_passes, layer_passes, mirror_loss, glass_loss, coat_loss;
     // How often each lobe is chosen; their sum is 1. `back` and `through` are the matt ones.
     float p_mirror, p_passing, p_coat, p_facet, p_back, p_through;
   };
@@ -95,24 +103,31 @@ class Bsdf {
   void set_up_frame(const BsdfFrame& frame);
   void set_up_roughness(const MaterialValues& material, bool has_facets);
   void set_up_layers(const MaterialValues& material, float outside);
+  void set_up_coat_loss();
   void set_up_metal(const MaterialValues& material, float outside);
   void set_up_sides(const BsdfFrame& frame, float layer_eta);
   void set_up_glass();
 
   Color3f metal_fresnel(float cosine) const;
   FacetShares facet_shares(const View& view, float cosine) const;
+  // These take directions in the surface's own space, on either side.
   /// What a facet's reflection loses to masking, 0..1, to be made up for; of glass from its side.
-  float mirror_loss(float cosine) const;
-  float glass_loss(const GlassSide& side, float cosine) const;
-  float layer_passes(float cosine) const;
+  float mirror_loss(const Vector3f& v) const;
+  float glass_loss(const GlassSide& side, const Vector3f& v) const;
+  float layer_passes(const Vector3f& v) const;
   float coat_passes(float cosine, bool is_inside) const;
+  /// What metal's facets lose below the coat for their roughness, to be made up for.
+  float coat_loss(const Vector3f& v) const;
+  /// What the coat makes of light that comes from a matt lobe of this albedo, o's share apart.
+  Color3f coated(const View& view, float i_passes, const Color3f& albedo) const;
 
   /// Null if out is on the wrong side of a normal.
   const View* look(const Vector3f& out) const;
   bool look_anew(const Vector3f& out, View& view) const;
   void choose_lobes(View& view) const;
-  Color3f matt_reflection(const View& view, float cosine) const;
-  Color3f matt_transmission(const View& view, float cosine) const;
+  /// With what the coat lets through.
+  Color3f matt_reflection(const View& view, const Vector3f& i, float i_passes) const;
+  Color3f matt_transmission(const View& view, const Vector3f& i) const;
   void add_coat(const View& view, const Vector3f& i, Scattered& result) const;
   void add_facet_reflection(const View& view, const Vector3f& i, Scattered& result) const;
   void add_thin_transmission(const View& view, const Vector3f& i, Scattered& result) const;
@@ -145,9 +160,13 @@ class Bsdf {
   ConductorSquares conductor_;
   Color3f metal_mean_;      // of Fresnel's reflectance, diffuse light
   Color3f metal_multiple_;  // what of light held back by facets leaves at last
-  float mirror_mean_loss_, layer_mean_passes_;
+  float mirror_mean_loss_, layer_mean_passes_, coat_mean_passes_;
+  float coat_loss_share_, coat_mean_loss_;  // of what the table of coats says; and its mean
   const ReflectionTable* reflection_;
-  AlphaCell cell_x_, cell_y_, coat_cell_, glass_cell_x_, glass_cell_y_;
+  AlphaCell cell_, coat_cell_, glass_cell_;  // of one roughness
+  DrawnCell drawn_cell_;                     // of two
+  AlphaCell coat_base_cell_;                 // the base's, in the table of coats
+  AxisCell coat_loss_cell_;
   AxisCell layer_eta_cell_, coat_eta_cell_;
   GlassSide sides_[2];  // outside, inside
 

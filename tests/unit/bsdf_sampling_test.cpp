@@ -29,6 +29,9 @@ std::vector<View> views() {
   cases.push_back(coated(plastic(0), 0.7F, 0.4F));
   cases.push_back(coated(glass(0.4F), 0.7F, 0.4F));
   cases.push_back(glass(0.4F, 1.1F));
+  cases.push_back(coated(metal(0.6F), 1, 0.3F));
+  cases.push_back(glass(0.4F));
+  cases.back().material.anisotropy = 0.6F;
   std::vector<View> result;
   for (const Case& c : cases) {
     for (const float cosine : {0.95F, 0.5F, 0.08F}) result.push_back({c, cosine});
