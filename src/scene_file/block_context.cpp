@@ -194,6 +194,9 @@ bool BlockContext::fill_item(const PropertyNode& property, void* input) {
     recorder->add(*row, told);
   }
   if (is_placing(*row)) return apply_placing(*row, *argument, place(property.whole()));
+  if (row->method && !is_parameter) {
+    builder_.draft_.render.particular.push_back({row->name, *row->method, place(whole)});
+  }
   store(*row, *argument, input);
   return true;
 }

@@ -99,11 +99,13 @@ constexpr PropertyRow kCamera[] = {
     property<&CameraInput::iso>("iso",
                                 "Path alone: the film's speed; with it the exposure is a photograph's.")
         .within({1, 1e7})
-        .or_else("100"),
+        .or_else("100")
+        .only_in(Method::kPath),
     property<&CameraInput::shutter_speed>("shutter_speed", "Likewise: how long the film is exposed.")
         .in("seconds")
         .within({1e-6, 1e6})
-        .or_else("1"),
+        .or_else("1")
+        .only_in(Method::kPath),
     property<&CameraInput::shutter>("shutter",
                                     "The share of a frame's time that it is open: blurs what moves.")
         .within(kShare),
@@ -218,23 +220,29 @@ constexpr PropertyRow kRender[] = {
         .or_else("follows the rounding error"),
     property<&RenderInput::ambient>(
         "ambient", "Classic alone: light from everywhere; 1 shows surfaces in their own colour.")
-        .within(kBrightness),
+        .within(kBrightness)
+        .only_in(Method::kClassic),
     property<&RenderInput::sampling>("sampling",
                                      "Path alone: what chooses the directions to look for light in.")
-        .one_of(kSamplings),
+        .one_of(kSamplings)
+        .only_in(Method::kPath),
     property<&RenderInput::clamp>(
         "clamp", "Path alone: the most that a path adds after its first bounce; 0: no limit.")
-        .within(kBrightness),
+        .within(kBrightness)
+        .only_in(Method::kPath),
     property<&RenderInput::exposure>("exposure", "Path alone: brightens the picture; 1 doubles its light.")
         .in("stops")
-        .within(kExposure),
+        .within(kExposure)
+        .only_in(Method::kPath),
     property<&RenderInput::tone>("tone", "Path alone: the curve that brings bright light into the picture.")
-        .one_of(kTones),
+        .one_of(kTones)
+        .only_in(Method::kPath),
     property<&RenderInput::white_balance>("white_balance",
                                           "Path alone: the light that shall look white, or its temperature.")
         .within(kBrightness)
         .in("or kelvin")
-        .or_else("1"),
+        .or_else("1")
+        .only_in(Method::kPath),
 };
 
 // A grey would balance nothing: one number is a temperature. Nothing where it is none, which has been told.
@@ -269,11 +277,6 @@ void build_render(const RenderInput& in, BlockContext& block) {
   render.ambient = in.ambient;
   render.exposure = in.exposure;
   render.tone = in.tone;
-  for (const std::string_view word : {"sampling", "clamp", "exposure", "tone", "white_balance"}) {
-    if (block.is_given(word)) render.particular.push_back({word, Method::kPath, block.place_of(word)});
-  }
-  if (block.is_given("ambient"))
-    render.particular.push_back({"ambient", Method::kClassic, block.place_of("ambient")});
 }
 
 struct BackgroundInput {

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "raytracer/method.hpp"
 #include "raytracer/texture.hpp"
 #include "raytracer/vector3f.hpp"
 #include "scene_file/source.hpp"
@@ -115,6 +116,7 @@ struct PropertyRow {
   bool is_repeatable = false;
   bool is_texture_only = false;  ///< the same value everywhere makes no sense
   bool is_opacity = false;       ///< of a picture with an alpha channel that is what counts
+  std::optional<Method> method;  ///< the only one in which it has an effect
   void (*store)(void* input, const Argument& argument) = nullptr;
   void (*store_texture)(void* input, const TexturePointer& texture) = nullptr;  ///< null: it takes none
   std::string (*default_value)(const void* input,
@@ -140,6 +142,7 @@ struct PropertyRow {
   }
   constexpr PropertyRow as(PropertyType new_type) const { return with(&PropertyRow::type, new_type); }
   constexpr PropertyRow for_textures_alone() const { return with(&PropertyRow::is_texture_only, true); }
+  constexpr PropertyRow only_in(Method one) const { return with(&PropertyRow::method, std::optional(one)); }
   constexpr PropertyRow as_opacity() const { return with(&PropertyRow::is_opacity, true); }
   /// A texture may stand in its place, for which `Textures` of the input struct has the member `Texture`.
   template <auto Textures, auto Texture>
