@@ -9,8 +9,7 @@ namespace {
 
 void sort_and_unite(std::vector<std::string>& names) {
   std::ranges::sort(names);
-  const auto again = std::ranges::unique(names);
-  names.erase(again.begin(), again.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());  // ranges::unique is beyond Clang 14
 }
 
 class Collector {

@@ -98,7 +98,7 @@ TEST_CASE("whole numbers end where their digits do") {
 TEST_CASE("texts are cut only where a line begins") {
   std::string text;
   for (int i = 0; i < 500; ++i) text += std::string(static_cast<std::size_t>(i % 37), 'x') + '\n';
-  for (const std::size_t size : {1, 16, 17, 100, 5000, 100000}) {
+  for (const std::size_t size : std::initializer_list<std::size_t>{1, 16, 17, 100, 5000, 100000}) {
     std::string joined;
     for (const std::string_view chunk : cut_at_lines(text, size, [](const char*) { return true; })) {
       REQUIRE_FALSE(chunk.empty());

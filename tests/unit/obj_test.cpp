@@ -120,7 +120,7 @@ TEST_CASE("OBJ: a position that thousands of combinations share is no trouble") 
   text += "f 1/20000 2/1 3/1\nf 1/3 2/1 3/1\n";
   const MeshData mesh = read(text);
   REQUIRE(mesh.positions.size() == 30002);
-  for (const std::size_t i : {0, 2, 31, 32, 33, 19999, 29999})
+  for (const std::size_t i : std::initializer_list<std::size_t>{0, 2, 31, 32, 33, 19999, 29999})
     REQUIRE(mesh.uvs[mesh.triangles[i][0]].x == static_cast<float>(i));
   REQUIRE(mesh.triangles[30000] == mesh.triangles[19999]);
   REQUIRE(mesh.triangles[30001] == mesh.triangles[2]);
@@ -154,7 +154,7 @@ TEST_CASE("OBJ: pieces read by different threads make the same mesh") {
   }
   const MeshData whole = read(text);
   REQUIRE(inconsistency(whole).empty());
-  for (const std::size_t chunk : {1, 50, 77, 1000, 10000}) {
+  for (const std::size_t chunk : std::initializer_list<std::size_t>{1, 50, 77, 1000, 10000}) {
     const MeshData pieces = read(text, chunk);
     REQUIRE(pieces.positions == whole.positions);
     REQUIRE(pieces.normals == whole.normals);
@@ -216,7 +216,7 @@ TEST_CASE("OBJ: materials come with their triangles") {
       "f 1 2 3\nusemtl green\nusemtl red\nf 1 1 1\nusemtl unheard\nf 2 3 4\nusemtl red\nf 2 3 4\n";
   std::vector<std::string> asked;
   const MayRead may_read = [&](const std::string& path) { asked.push_back(path); };
-  for (const std::size_t chunk : {16, 1000}) {
+  for (const std::size_t chunk : std::initializer_list<std::size_t>{16, 1000}) {
     const MeshData mesh = meshes::read_obj(text, folder.path(), may_read, chunk);
     REQUIRE(mesh.triangles.size() == 6);
     REQUIRE(ranges_of(mesh) == Triangles{{1, 3, 0}, {3, 4, 2}, {5, 6, 0}});

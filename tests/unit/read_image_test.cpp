@@ -304,7 +304,9 @@ TEST_CASE("Radiance HDR is read as flat pixels, as old runs and as new runs") {
 TEST_CASE("Radiance HDR is read from every side") {
   // Six pixels whose red is 1, 2 … 6 in the order of the file, two scanlines of three.
   Bytes pixels;
-  for (int i = 1; i <= 6; ++i) pixels.insert(pixels.end(), {static_cast<std::uint8_t>(i), 0, 0, 136});
+  for (int i = 1; i <= 6; ++i) {
+    for (const int byte : {i, 0, 0, 136}) pixels.push_back(static_cast<std::uint8_t>(byte));
+  }
   const auto reds = [&](const std::string& line) {
     const Picture picture = raytracer::read_radiance(radiance_of(line, pixels));
     std::string result = std::to_string(picture.width) + ":";

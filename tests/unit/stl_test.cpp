@@ -88,7 +88,7 @@ TEST_CASE("STL: pieces read by different threads make the same mesh") {
   const MeshData whole = read_stl(text_of(corners)), binary = read_stl(binary_of(corners));
   REQUIRE(whole.positions == binary.positions);
   REQUIRE(whole.triangles == binary.triangles);
-  for (const std::size_t chunk : {1, 50, 100, 1000, 5000}) {
+  for (const std::size_t chunk : std::initializer_list<std::size_t>{1, 50, 100, 1000, 5000}) {
     const MeshData pieces = read_stl(text_of(corners), chunk);
     REQUIRE(pieces.positions == whole.positions);
     REQUIRE(pieces.triangles == whole.triangles);
