@@ -199,9 +199,14 @@ const SceneHash& Files::content_hash(const std::string& path) {
 
 const SyntaxTree* Files::include(const std::string& file, const Place& from, Diagnostics& diagnostics) {
   const fs::path folder = fs::path(from.source->path()).parent_path();
-  // A file that has been read is there, whatever has become of it since.
-  if (const auto known = by_path_.find(canonical((folder / file).string())); known != by_path_.end())
+  const std::string written = (folder / file).string();
+  // A file that has been read is there, whatever has become of it since. As it is written first: a loop may
+  // ask a million times, and the system takes long to say what a name stands for.
+  if (const auto known = by_written_path_.find(written); known != by_written_path_.end())
     return known->second;
+  if (const auto known = by_path_.find(canonical(written)); known != by_path_.end()) {
+    return by_written_path_[written] = known->second;
+  }
   const std::string path = find(file, from, "a file to include", diagnostics);
   if (path.empty()) return nullptr;
   const std::string shown = fs::path(from.source->name()).parent_path().empty()

@@ -78,7 +78,8 @@ class Files {
   std::vector<std::string> other_files_;
   Names names_;
   std::vector<File> files_;
-  std::unordered_map<std::string, const SyntaxTree*> by_path_;
+  std::unordered_map<std::string, const SyntaxTree*> by_path_;          ///< canonical
+  std::unordered_map<std::string, const SyntaxTree*> by_written_path_;  ///< as folder and name make it
   std::unordered_map<std::string, SceneHash> hashes_;
   PictureCache pictures_;
 };
