@@ -67,4 +67,10 @@ class Media {
 /// Whether a material has an inside that a path can be in.
 inline bool has_inside(const Material& material) { return material.transmission > 0 && !material.thin; }
 
+/// Whether some light may come through, anywhere on the surface.
+inline bool lets_light_pass(const Material& material) {
+  return material.alpha < 1 || material.transmission > 0 ||
+         (material.textures && (material.textures->alpha || material.textures->transmission));
+}
+
 }  // namespace raytracer

@@ -5,15 +5,11 @@
 
 #include "materials/absorption.hpp"
 #include "materials/fresnel.hpp"
+#include "materials/media.hpp"
 #include "textures/material_at.hpp"
 
 namespace raytracer {
 namespace {
-
-bool lets_light_pass(const Material& material) {
-  return material.alpha < 1 || material.transmission > 0 ||
-         (material.textures && (material.textures->alpha || material.textures->transmission));
-}
 
 bool may_be_there(const Material& material) {
   return material.alpha > 0 || (material.textures && material.textures->alpha);

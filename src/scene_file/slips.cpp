@@ -52,11 +52,6 @@ bool encloses(const Shape& shape, const Vector3f& point) {
   return true;
 }
 
-bool lets_light_out(const Material& material) {
-  return material.transmission > 0 || material.alpha < 1 ||
-         (material.textures != nullptr && (material.textures->alpha || material.textures->transmission));
-}
-
 constexpr std::size_t kMostPairs = 2'000'000;  // of a light and a shape; more take too long
 
 // What keeps light in.
@@ -70,7 +65,7 @@ Cover cover_of(const SceneDescription& scene, const Vector3f& point) {
   for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
     const Material& material = scene.materials[scene.material_of[s]];
     const bool is_glass = has_inside(material) && material.alpha == 1;
-    if (!is_glass && lets_light_out(material)) continue;
+    if (!is_glass && lets_light_pass(material)) continue;
     if (!encloses(*scene.shapes[s], point)) continue;
     if (is_within(scene.shapes[s]->bounds(), Vector3f(scene.camera.position()))) continue;
     cover.is_there = true;
@@ -142,7 +137,7 @@ void warn_of_buried_camera(const SceneDescription& scene, const CameraDraft& cam
   const Vector3f eye(camera.position);
   for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
     const Material& material = scene.materials[scene.material_of[s]];
-    if (lets_light_out(material) || material.is_emissive() || !encloses(*scene.shapes[s], eye)) continue;
+    if (lets_light_pass(material) || material.is_emissive() || !encloses(*scene.shapes[s], eye)) continue;
     const Box3f room = scene.shapes[s]->bounds();
     const auto is_in_room = [&](const Light& light) {
       return light.kind != Light::Kind::kDirectional && is_within(room, light.position);
