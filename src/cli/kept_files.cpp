@@ -3,22 +3,17 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <filesystem>
-
+#include "core/canonical_path.hpp"
 #include "image/destination.hpp"
 #include "raytracer/error.hpp"
 
 namespace raytracer::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
-// Absolute and without links as far as it exists.
+// A name that the system can't look up stands for itself.
 std::string canonical(const std::string& path) {
-  std::error_code error;
-  const fs::path absolute = fs::absolute(path, error);
-  const fs::path resolved = error ? fs::path() : fs::weakly_canonical(absolute, error);
-  return error ? path : resolved.string();
+  const std::string resolved = canonical_path(path);
+  return resolved.empty() ? path : resolved;
 }
 
 }  // namespace

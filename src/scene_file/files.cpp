@@ -12,6 +12,7 @@
 #include <fstream>
 #include <utility>
 
+#include "core/canonical_path.hpp"
 #include "core/hash.hpp"
 #include "raytracer/error.hpp"
 #include "scene_file/json_scene.hpp"
@@ -38,15 +39,6 @@ class OpenFile {
  private:
   int descriptor_;
 };
-
-// Absolute and without links as far as it exists; empty where the system can't say (a name too long).
-std::string canonical(const std::string& path) {
-  std::error_code error;
-  const fs::path absolute = fs::absolute(path.empty() ? "." : path, error);
-  if (error) return {};
-  const fs::path resolved = fs::weakly_canonical(absolute, error);
-  return error ? std::string() : resolved.string();
-}
 
 }  // namespace
 
@@ -86,8 +78,8 @@ std::string read_text(const std::string& path) {
 }
 
 Files::Files(const std::string& main_folder, const std::vector<std::string>& allowed_folders) {
-  allowed_folders_.push_back(canonical(main_folder));
-  for (const std::string& folder : allowed_folders) allowed_folders_.push_back(canonical(folder));
+  allowed_folders_.push_back(canonical_path(main_folder));
+  for (const std::string& folder : allowed_folders) allowed_folders_.push_back(canonical_path(folder));
 }
 
 bool Files::is_allowed(const std::string& canonical_path) const {
@@ -124,7 +116,7 @@ void Files::read_pictures_ahead(const SyntaxTree& tree) {
 
 const SyntaxTree* Files::add_main(std::string name, std::string path, std::string text,
                                   Diagnostics& diagnostics) {
-  const std::string key = path.empty() ? std::string() : canonical(path);
+  const std::string key = path.empty() ? std::string() : canonical_path(path);
   const SyntaxTree* tree = add(std::move(name), key, std::move(text), diagnostics);
   if (!key.empty()) by_path_.emplace(key, tree);
   return tree;
@@ -137,7 +129,7 @@ std::string Files::find(const std::string& file, const Place& from, std::string_
     return {};
   }
   const fs::path folder = fs::path(from.source->path()).parent_path();
-  std::string path = canonical((folder / file).string());
+  std::string path = canonical_path((folder / file).string());
   if (path.empty()) {
     diagnostics.error(from, "this can't be the name of a file", "it is too long, or can't be looked up");
     return {};
@@ -162,21 +154,22 @@ std::string Files::find(const std::string& file, const Place& from, std::string_
 }
 
 void Files::require_allowed(const std::string& path) const {
-  const std::string resolved = canonical(path);
+  const std::string resolved = canonical_path(path);
   if (!resolved.empty() && is_allowed(resolved)) return;
   throw Error(ErrorKind::kScene, fmt::format("'{}' lies outside of the scene's folder", path));
 }
 
 std::string Files::path_from(const Source& source, const std::string& file) const {
-  std::string path = canonical((fs::path(source.path()).parent_path() / file).string());
+  std::string path = canonical_path((fs::path(source.path()).parent_path() / file).string());
   return is_allowed(path) ? path : std::string();
 }
 
 std::string Files::seen_from(const std::string& folder, const std::string& file, const Source& source) const {
   const fs::path path(file);
   if (path.is_absolute()) return file;
-  const std::string own = canonical(fs::path(source.path()).parent_path().string());
-  const fs::path there = folder.empty() ? fs::path(allowed_folders_.front()) : fs::path(canonical(folder));
+  const std::string own = canonical_path(fs::path(source.path()).parent_path().string());
+  const fs::path there =
+      folder.empty() ? fs::path(allowed_folders_.front()) : fs::path(canonical_path(folder));
   const fs::path way = fs::path(own).lexically_relative(there);
   return way.empty() || way == "." ? file : (way / path).lexically_normal().string();
 }
@@ -204,7 +197,7 @@ const SyntaxTree* Files::include(const std::string& file, const Place& from, Dia
   // ask a million times, and the system takes long to say what a name stands for.
   if (const auto known = by_written_path_.find(written); known != by_written_path_.end())
     return known->second;
-  if (const auto known = by_path_.find(canonical(written)); known != by_path_.end()) {
+  if (const auto known = by_path_.find(canonical_path(written)); known != by_path_.end()) {
     return by_written_path_[written] = known->second;
   }
   const std::string path = find(file, from, "a file to include", diagnostics);
