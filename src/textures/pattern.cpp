@@ -44,6 +44,18 @@ PlanePoint plane_point(const PatternPoint& point, PatternMap map) {
   return {{p.x, p.z}, {extent.x, extent.z}};
 }
 
+float square_wave(float x, float duty, float width) {
+  // In double, from near the origin: the two integrals are large and close to each other.
+  const double at = static_cast<double>(x) - std::floor(static_cast<double>(x));
+  if (!(width > 1e-5F)) return at < static_cast<double>(duty) ? 1.0F : 0.0F;
+  const auto integral = [&](double to) {
+    const double whole = std::floor(to);
+    return static_cast<double>(duty) * whole + std::min(to - whole, static_cast<double>(duty));
+  };
+  const double half = static_cast<double>(width) / 2;
+  return static_cast<float>((integral(at + half) - integral(at - half)) / (2 * half));
+}
+
 float detail_left(float width) { return 1 - glm::smoothstep(0.4F, 1.2F, width); }
 
 }  // namespace raytracer

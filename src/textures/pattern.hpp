@@ -78,17 +78,7 @@ class Pattern : public Texture {
 
 /// The average of a wave of period 1 that is 1 over the first `duty` of each period and 0 over the rest, over
 /// `width` around x.
-inline float square_wave(float x, float duty, float width) {
-  // In double, from near the origin: the two integrals are large and close to each other.
-  const double at = static_cast<double>(x) - std::floor(static_cast<double>(x));
-  if (!(width > 1e-5F)) return at < static_cast<double>(duty) ? 1.0F : 0.0F;
-  const auto integral = [&](double to) {
-    const double whole = std::floor(to);
-    return static_cast<double>(duty) * whole + std::min(to - whole, static_cast<double>(duty));
-  };
-  const double half = static_cast<double>(width) / 2;
-  return static_cast<float>((integral(at + half) - integral(at - half)) / (2 * half));
-}
+float square_wave(float x, float duty, float width);
 
 /// How much is left of detail of size 1 under a footprint of that width: 1 for a point, 0 from a little above
 /// the detail's size on.
