@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/hash.hpp"
+#include "integrators/weights.hpp"
 #include "materials/absorption.hpp"
 #include "scene/any_material.hpp"
 
@@ -28,19 +29,12 @@ constexpr std::array<bool, kPairsPerBounce> kAreCompanions = {true, false, true,
 constexpr int kFirstRoulette = 3;
 constexpr float kWeak = 0.25F;
 
+// How wide at least the cone of rays is that a surface has scattered.
+constexpr float kScatteredSpread = 0.1F;
+
 float largest(const Color3f& c) { return std::max({c.x, c.y, c.z}); }
 
 bool is_black(const Color3f& c) { return !(c.x > 0 || c.y > 0 || c.z > 0); }
-
-// The power heuristic with exponent 2 (Veach 1997, section 9.2.4): the weight of a choice with density a that
-// another strategy would have made with density b.
-float power_heuristic(float a, float b) {
-  if (!(b > 0)) return 1;
-  if (!(a > 0)) return 0;
-  // As a ratio: the squares of large densities leave the range of float.
-  const float ratio = b / a;
-  return 1 / (1 + ratio * ratio);
-}
 
 // The weight of light that the material's choice, of density `chosen`, has met, and that the lights would
 // have chosen with density `by_lights`.
@@ -235,19 +229,87 @@ bool PathTracer::is_passed(const Path& path, std::uint32_t index, int depth, std
 }
 
 void PathTracer::shade(int depth) {
-  std::size_t kept = 0;
   waiting_.count = 0;
   for (std::uint32_t i = 0; i < paths_.size(); ++i) {
     if (is_hit_[i] == 0) {
       add_sky(paths_[i], depth);
-    } else if (shade_hit(paths_[i], i, depth)) {
-      if (kept != i) move_path(i, kept);
-      ++kept;
+    } else {
+      shade_hit(i, depth);
     }
   }
+  if (matt_.count > 0) shade_matt(depth);
   add_unoccluded();
+  std::size_t kept = 0;
+  for (std::uint32_t i = 0; i < paths_.size(); ++i) {
+    if (is_hit_[i] == 0) continue;
+    if (kept != i) move_path(i, kept);
+    ++kept;
+  }
   paths_.resize(kept);
   numbers_.resize(kept);
+}
+
+// Where all that there is to a vertex is a matt surface, it waits for others like it.
+void PathTracer::shade_hit(std::uint32_t index, int depth) {
+  Path& path = paths_[index];
+  const Hit& hit = hits_[index];
+  const Material& material = scene_.material_of(hit);
+  const SurfacePoint surface = raytracer::surface_at(scene_, path.ray, hit);
+  const bool is_plain = !has_cutouts_ && depth < settings_.bounces && is_matt(material) &&
+                        material.textures == nullptr && !material.is_emissive() && !material.is_area_light &&
+                        !scene_.has_vertex_colors() && surface.shading_normal == surface.normal &&
+                        (!has_media_ || media_of_[index].innermost() == nullptr);
+  if (!is_plain) {
+    is_hit_[index] = shade_any(path, material, surface, index, depth) ? 1 : 0;
+    return;
+  }
+  if (!cones_.empty()) {
+    cones_[index] = cones_[index].at(hit.t * glm::length(path.ray.direction));
+    cones_[index].spread = std::max(cones_[index].spread, kScatteredSpread);
+  }
+  const std::size_t lane = matt_.count;
+  matt_.add(index, surface, path.ray.direction);
+  matt_.offset[lane] = scene_.description().epsilon.value_or(surface.position_error);
+  matt_.color.set(lane, material.color);
+  matt_.throughput.set(lane, path.throughput);
+  matt_.lights.from.u[lane] = light_points_[index].x;
+  matt_.lights.from.v[lane] = light_points_[index].y;
+  matt_.lights.u_light[lane] = choice_points_[index].x;
+  matt_.u[lane] = scatter_points_[index].x;
+  matt_.v[lane] = scatter_points_[index].y;
+  if (matt_.count == MattVertices::kSize) shade_matt(depth);
+}
+
+// Does for those that wait what shade_any() does for one.
+void PathTracer::shade_matt(int depth) {
+  matt_.lights.count = matt_.count;
+  lights_.sample(matt_.lights, light_samples_);
+  matt_.find_light(light_samples_, settings_.sampling);
+  for (std::size_t i = 0; i < matt_.count; ++i) {
+    if (matt_.is_lit[i] == 0) continue;
+    const LightSamples& to = light_samples_;
+    LightSample light;
+    light.is_far = to.is_far[i] != 0;
+    light.direction = {to.direction_x[i], to.direction_y[i], to.direction_z[i]};
+    light.target = {to.target_x[i], to.target_y[i], to.target_z[i]};
+    let_wait(light.shadow_ray(matt_.start.at(i)), matt_.light.at(i), paths_[matt_.path[i]].slot, nullptr,
+             depth);
+  }
+  matt_.scatter();
+  for (std::size_t i = 0; i < matt_.count; ++i) {
+    const std::uint32_t index = matt_.path[i];
+    Path& path = paths_[index];
+    const Vector3f direction = matt_.direction.at(i), position = matt_.position.at(i);
+    path.throughput = matt_.throughput.at(i);
+    path.pdf = matt_.pdf[i];
+    path.from = position;
+    path.from_normal = matt_.side[i] * matt_.normal.at(i);
+    path.ray = {position + matt_.side[i] * matt_.offset[i] * matt_.normal.at(i), direction};
+    const float survival = path.pdf > 0 ? roulette(path, depth, chance_points_[index].x) : 0.0F;
+    path.throughput *= survival;
+    is_hit_[index] = survival > 0 ? 1 : 0;
+  }
+  matt_.count = 0;
 }
 
 void PathTracer::move_path(std::size_t from, std::size_t to) {
@@ -258,10 +320,10 @@ void PathTracer::move_path(std::size_t from, std::size_t to) {
 }
 
 // The light of one vertex; false where the path ends there.
-bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
+bool PathTracer::shade_any(Path& path, const Material& material, const SurfacePoint& surface,
+                           std::uint32_t index, int depth) {
   const Hit& hit = hits_[index];
-  const Material& material = scene_.material_of(hit);
-  Vertex vertex{hit, material, &material, raytracer::surface_at(scene_, path.ray, hit), {}, {}, {}, {}};
+  Vertex vertex{hit, material, &material, surface, {}, {}, {}, {}};
   const float length = glm::length(path.ray.direction);
   vertex.out = -path.ray.direction / length;
   const bool is_outside = glm::dot(vertex.surface.normal, vertex.out) > 0;
@@ -356,19 +418,28 @@ void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const 
   if (!light.is_delta && settings_.sampling == Sampling::kBoth) {
     weight = power_heuristic(light.pdf, chosen);
   }
-  const std::size_t i = waiting_.count++;
-  waiting_.rays[i] = light.shadow_ray(vertex.shadow_position(light.direction, scene_.description().epsilon));
-  // Multiplied in this order nothing overflows that is not too large itself.
-  waiting_.light[i] = path.throughput * value * (weight / light.pdf) * light.radiance;
-  waiting_.slot[i] = path.slot;
+  Media media;
   if (has_cutouts_ && has_media_) {
-    waiting_.media[i] = media_of_[index];
-    if (glm::dot(light.direction, vertex.facing) < 0) vertex.cross(light.direction, waiting_.media[i]);
+    media = media_of_[index];
+    if (glm::dot(light.direction, vertex.facing) < 0) vertex.cross(light.direction, media);
   }
+  // Multiplied in this order nothing overflows that is not too large itself.
+  let_wait(light.shadow_ray(vertex.shadow_position(light.direction, scene_.description().epsilon)),
+           path.throughput * value * (weight / light.pdf) * light.radiance, path.slot, &media, depth);
+}
+
+// Until there is a packet of shadow rays; `media` may be null where there are no cut-outs.
+void PathTracer::let_wait(const Ray3f& ray, Color3f light, std::uint32_t slot, const Media* media,
+                          int depth) {
   if (depth > 0 && settings_.clamp_indirect > 0) {
-    const float most = largest(waiting_.light[i]);
-    if (most > settings_.clamp_indirect) waiting_.light[i] *= settings_.clamp_indirect / most;
+    const float most = largest(light);
+    if (most > settings_.clamp_indirect) light *= settings_.clamp_indirect / most;
   }
+  const std::size_t i = waiting_.count++;
+  waiting_.rays[i] = ray;
+  waiting_.light[i] = light;
+  waiting_.slot[i] = slot;
+  if (has_cutouts_ && media != nullptr) waiting_.media[i] = *media;
   if (waiting_.count == kMostRays) add_unoccluded();
 }
 
@@ -381,7 +452,8 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   path.from = vertex.surface.position;
   path.from_normal = vertex.light_side;
   path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
-  if (!sample.is_delta && !cones_.empty()) cones_[index].spread = std::max(cones_[index].spread, 0.1F);
+  if (!sample.is_delta && !cones_.empty())
+    cones_[index].spread = std::max(cones_[index].spread, kScatteredSpread);
   if (sample.is_transmission && has_inside(vertex.material)) {
     Media& media = media_of_[index];
     const float before = media.ior();

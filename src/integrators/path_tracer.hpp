@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "integrators/matt_vertices.hpp"
 #include "materials/bsdf.hpp"
 #include "materials/media.hpp"
 #include "raytracer/method.hpp"
@@ -80,11 +81,15 @@ class PathTracer {
   bool is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const;
   void shade(int depth);
   void move_path(std::size_t from, std::size_t to);
-  bool shade_hit(Path& path, std::uint32_t index, int depth);
+  void shade_hit(std::uint32_t index, int depth);
+  void shade_matt(int depth);
+  bool shade_any(Path& path, const Material& material, const SurfacePoint& surface, std::uint32_t index,
+                 int depth);
   void add_sky(const Path& path, int depth);
   void add_emission(const Path& path, const Vertex& vertex, int depth);
   void add_direct_light(const Path& path, const Vertex& vertex, const Bsdf& bsdf, std::uint32_t index,
                         int depth);
+  void let_wait(const Ray3f& ray, Color3f light, std::uint32_t slot, const Media* media, int depth);
   bool scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std::uint32_t index, int depth);
   float roulette(const Path& path, int depth, float u) const;
   void add(std::uint32_t slot, Color3f light, int depth);
@@ -106,10 +111,12 @@ class PathTracer {
   std::vector<RayCone> cones_;
   std::vector<Media> media_of_;
   std::vector<Hit> hits_;
-  std::vector<std::uint8_t> is_hit_;
+  std::vector<std::uint8_t> is_hit_;  // once it is shaded: whether its path goes on
   std::vector<Vector2f> light_points_, choice_points_, scatter_points_, chance_points_;
   std::span<Color3f> colors_;
   ShadowRays waiting_;
+  MattVertices matt_;  // those that wait to be shaded
+  LightSamples light_samples_;
 };
 
 }  // namespace raytracer
