@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <span>
 
 #include "core/parallel.hpp"
 #include "integrators/path_tracer.hpp"
@@ -82,11 +83,12 @@ class TileSums {
 
   const std::vector<glm::ivec2>& pixels() const { return pixels_; }
 
-  /// What is brighter than a picture can hold counts as bright as that.
   void add(const std::vector<Color3f>& colors, float scale) {
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      sums_[i] += glm::min(glm::max(Color3f(0), scale * colors[i]), brightest_);
-    }
+    for (std::size_t i = 0; i < sums_.size(); ++i) add(i, scale * colors[i]);
+  }
+  /// To pixel i. What is brighter than a picture can hold counts as bright as that.
+  void add(std::size_t i, const Color3f& color) {
+    sums_[i] += glm::min(glm::max(Color3f(0), color), brightest_);
   }
 
   /// After the last of all samples the sums become means.
@@ -239,25 +241,21 @@ class PathRenderer {
   std::uint64_t render(const Tile& tile) const {
     TileSums sums(tile, image_, settings_.samples);
     const std::vector<glm::ivec2>& pixels = sums.pixels();
-    std::vector<Color3f> colors(pixels.size());
-    std::vector<Ray3f> rays(pixels.size());
-    std::vector<RayCone> cones(has_textures_ ? pixels.size() : 0);
-    std::vector<PathNumber> numbers(pixels.size());
-    std::vector<Vector2f> places(pixels.size()), on_lens(pixels.size(), Vector2f(0.5F));
-    const bool has_lens = scene_.camera().has_lens();
     PathTracer tracer(scene_, paths_, points_, world_);
-    for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
-      for (std::size_t i = 0; i < pixels.size(); ++i)
-        numbers[i] = points_.number(pixels[i].x, pixels[i].y, sample);
-      points_.fill(0, numbers, places);
-      if (has_lens) points_.fill(1, numbers, on_lens);
-      for (std::size_t i = 0; i < pixels.size(); ++i) {
-        rays[i] = camera_ray(scene_, image_, pixels[i], places[i], on_lens[i]);
-        if (!has_textures_) continue;
-        cones[i] = camera_cone(scene_, image_, pixels[i], places[i], on_lens[i], rays[i], settings_.samples);
+    Batch batch;
+    const int count = slice_.end_sample - slice_.first_sample;
+    const int samples_at_once = std::min(count, kSamplesAtOnce);
+    const auto pixels_at_once = static_cast<std::size_t>(kPathsAtOnce / std::max(samples_at_once, 1));
+    for (std::size_t first = 0; first < pixels.size(); first += pixels_at_once) {
+      const std::size_t size = std::min(pixels_at_once, pixels.size() - first);
+      for (int sample = slice_.first_sample; sample < slice_.end_sample; sample += samples_at_once) {
+        const int end = std::min(sample + samples_at_once, slice_.end_sample);
+        set_up(batch, std::span(pixels).subspan(first, size), sample, end);
+        tracer.trace(batch.rays, batch.cones, batch.numbers, batch.colors);
+        const auto per_pixel = static_cast<std::size_t>(end - sample);
+        for (std::size_t i = 0; i < batch.colors.size(); ++i)
+          sums.add(first + i / per_pixel, kWhite * batch.colors[i]);
       }
-      tracer.trace(rays, cones, numbers, colors);
-      sums.add(colors, kWhite);
     }
     sums.store(slice_, settings_.samples);
     return tracer.rays();
@@ -265,6 +263,42 @@ class PathRenderer {
 
  private:
   static constexpr float kWhite = 255;
+  // Samples of one pixel go the same way for longer than those of neighbours do: where they have to find
+  // their way through glass that is worth a twentieth of the time.
+  static constexpr int kSamplesAtOnce = 16, kPathsAtOnce = kTileSize * kTileSize;
+
+  // Paths that are followed together, those of a pixel side by side.
+  struct Batch {
+    std::vector<PathNumber> numbers;
+    std::vector<Vector2f> places, on_lens;
+    std::vector<Ray3f> rays;
+    std::vector<RayCone> cones;  // none where there are no textures
+    std::vector<Color3f> colors;
+  };
+
+  void set_up(Batch& batch, std::span<const glm::ivec2> pixels, int first_sample, int end_sample) const {
+    const std::size_t count = pixels.size() * static_cast<std::size_t>(end_sample - first_sample);
+    batch.numbers.clear();
+    for (const glm::ivec2& pixel : pixels) {
+      for (int sample = first_sample; sample < end_sample; ++sample)
+        batch.numbers.push_back(points_.number(pixel.x, pixel.y, sample));
+    }
+    batch.places.resize(count);
+    points_.fill(0, batch.numbers, batch.places);
+    batch.on_lens.assign(count, Vector2f(0.5F));
+    if (scene_.camera().has_lens()) points_.fill(1, batch.numbers, batch.on_lens);
+    batch.rays.clear();
+    batch.cones.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::ivec2& pixel = pixels[i / static_cast<std::size_t>(end_sample - first_sample)];
+      const Vector2f &place = batch.places[i], &lens = batch.on_lens[i];
+      batch.rays.push_back(camera_ray(scene_, image_, pixel, place, lens));
+      if (!has_textures_) continue;
+      batch.cones.push_back(
+          camera_cone(scene_, image_, pixel, place, lens, batch.rays.back(), settings_.samples));
+    }
+    batch.colors.resize(count);
+  }
 
   const Scene& scene_;
   const RenderSettings& settings_;
