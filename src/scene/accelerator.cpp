@@ -24,10 +24,14 @@ constexpr unsigned kAllGeometry = 0xFFFFFFFF;  // Embree 4's default mask would 
 // farther out, and nothing in the tree can be seen from there in single precision.
 constexpr float kFarthest = 1.8e18f;
 
+// Without branches, for blocks of rays; false where anything is no number.
+inline bool is_within_reach(const Vector3f& v) {
+  const float x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+  return (x < kFarthest) & (y < kFarthest) & (z < kFarthest);
+}
 inline bool is_within_reach(const Vector3f& origin, const Vector3f& direction) {
-  const auto is_near = [](float x) { return std::abs(x) < kFarthest; };
-  return is_near(origin.x) & is_near(origin.y) & is_near(origin.z) & is_near(direction.x) &
-         is_near(direction.y) & is_near(direction.z);
+  const bool starts_near = is_within_reach(origin), is_short = is_within_reach(direction);
+  return starts_near & is_short;
 }
 inline bool is_within_reach(const Ray3f& ray) { return is_within_reach(ray.origin, ray.direction); }
 
