@@ -56,4 +56,25 @@ std::uint64_t PathRenderer::render(const Tile& tile) const {
   return tracer.rays();
 }
 
+void PathRenderer::aim(const TilePixels& pixels, std::span<const Vector2f> places,
+                       std::span<const Vector2f> on_lens, std::span<Ray3f> rays) const {
+  if (!scene_.camera().is_pinhole()) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      rays[i] = camera_ray(scene_, image_, pixels.at(i), places[i], on_lens[i]);
+    }
+    return;
+  }
+  for (std::size_t b = 0; b < pixels.blocks().size(); ++b) {
+    WithinPixels within{};
+    const std::size_t first = b * kBlockSize, count = pixels.size_of_block(b);
+    for (std::size_t i = 0; i < count; ++i) {
+      within.x[i] = places[first + i].x;
+      within.y[i] = places[first + i].y;
+    }
+    RayBlock block;
+    pinhole_rays(scene_.camera(), places_of(pixels.blocks()[b], within, image_), block);
+    for (std::size_t i = 0; i < count; ++i) rays[first + i] = block.ray(static_cast<int>(i));
+  }
+}
+
 }  // namespace raytracer

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "integrators/path_tracer.hpp"
 #include "raytracer/render.hpp"
@@ -18,6 +19,9 @@ class PathRenderer {
   std::uint64_t render(const Tile& tile) const;
 
  private:
+  void aim(const TilePixels& pixels, std::span<const Vector2f> places, std::span<const Vector2f> on_lens,
+           std::span<Ray3f> rays) const;
+
   const Scene& scene_;
   const RenderSettings& settings_;
   const Slice& slice_;
