@@ -6,7 +6,7 @@
 namespace raytracer {
 
 void MattVertices::add(std::uint32_t path_index, const SurfacePoint& surface, const Vector3f& way) {
-  const std::size_t i = count++;
+  const auto i = static_cast<int>(count++);
   path[i] = path_index;
   position.set(i, surface.position);
   normal.set(i, surface.normal);
@@ -23,9 +23,9 @@ void MattVertices::add(std::uint32_t path_index, const SurfacePoint& surface, co
 // Into arrays of its own: what could be memory that is read keeps loops from becoming vectors.
 void MattVertices::find_light(const LightSamples& samples, Sampling sampling) {
   const bool is_weighted = sampling == Sampling::kBoth, is_delta_only = sampling == Sampling::kMaterials;
-  Lanes found, from;
+  Vector3Block found, from;
   alignas(64) std::uint32_t is_found[kSize];
-  for (std::size_t i = 0; i < kSize; ++i) {
+  for (int i = 0; i < kBlockSize; ++i) {
     const Vector3f facing = side[i] * normal.at(i);
     from.set(i, position.at(i) + offset[i] * facing);
     const Vector3f to_light(samples.direction_x[i], samples.direction_y[i], samples.direction_z[i]);
@@ -43,13 +43,13 @@ void MattVertices::find_light(const LightSamples& samples, Sampling sampling) {
   }
   light = found;
   start = from;
-  for (std::size_t i = 0; i < kSize; ++i) is_lit[i] = is_found[i];
+  for (int i = 0; i < kBlockSize; ++i) is_lit[i] = is_found[i];
 }
 
 void MattVertices::scatter() {
-  Lanes chosen, rest;
+  Vector3Block chosen, rest;
   alignas(64) float density[kSize];
-  for (std::size_t i = 0; i < kSize; ++i) {
+  for (int i = 0; i < kBlockSize; ++i) {
     const Vector3f axis = normal.at(i);
     Vector3f tangent, bitangent;
     complete_frame(axis, tangent, bitangent);
@@ -62,7 +62,7 @@ void MattVertices::scatter() {
   }
   direction = chosen;
   throughput = rest;
-  for (std::size_t i = 0; i < kSize; ++i) pdf[i] = density[i];
+  for (int i = 0; i < kBlockSize; ++i) pdf[i] = density[i];
 }
 
 }  // namespace raytracer

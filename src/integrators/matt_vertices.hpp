@@ -5,43 +5,36 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/lanes.hpp"
 #include "materials/bsdf.hpp"
 #include "raytracer/method.hpp"
 #include "scene/light_set.hpp"
 
 namespace raytracer {
 
-/// Sixteen vectors or colours.
-struct Lanes {
-  static constexpr std::size_t kSize = LightQueries::kSize;
-  alignas(64) float x[kSize]{}, y[kSize]{}, z[kSize]{};
-
-  Vector3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
-  void set(std::size_t i, const Vector3f& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
-};
-
 /// What is done here is what Bsdf does of a purely matt material, to the last bit, on surfaces whose two
 /// normals are one. Lanes from `count` on hold anything.
 struct MattVertices {
-  static constexpr std::size_t kSize = Lanes::kSize;
+  static constexpr std::size_t kSize = LightQueries::kSize;
+  static_assert(kSize == kBlockSize);
 
   // What is given.
   std::size_t count = 0;
   std::uint32_t path[kSize]{};
-  Lanes position, normal;             ///< the normal as SurfacePoint has it
-  alignas(64) float side[kSize]{};    ///< 1 where the normal looks back along the ray, else -1
-  alignas(64) float offset[kSize]{};  ///< how far off the surface rays start
-  Lanes color, throughput;            ///< the material's, as it is written; the path's so far
+  Vector3Block position{}, normal{};   ///< the normal as SurfacePoint has it
+  alignas(64) float side[kSize]{};     ///< 1 where the normal looks back along the ray, else -1
+  alignas(64) float offset[kSize]{};   ///< how far off the surface rays start
+  Vector3Block color{}, throughput{};  ///< the material's, as it is written; the path's so far
   LightQueries lights;
   alignas(64) float u[kSize]{}, v[kSize]{};  ///< for the direction
 
   // Towards the light.
-  Lanes light;                                ///< what arrives at the eye, if nothing is in its way
-  Lanes start;                                ///< of rays on the side that the ray came from
+  Vector3Block light{};                       ///< what arrives at the eye, if nothing is in its way
+  Vector3Block start{};                       ///< of rays on the side that the ray came from
   alignas(64) std::uint32_t is_lit[kSize]{};  ///< whether there is any
 
   // The way on.
-  Lanes direction;
+  Vector3Block direction{};
   alignas(64) float pdf[kSize]{};  ///< of that choice; 0: the path ends
 
   /// Where the next one stands that has been met by a ray of direction `way`.

@@ -267,7 +267,7 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
     cones_[index] = cones_[index].at(hit.t * glm::length(path.ray.direction));
     cones_[index].spread = std::max(cones_[index].spread, kScatteredSpread);
   }
-  const std::size_t lane = matt_.count;
+  const auto lane = static_cast<int>(matt_.count);
   matt_.add(index, surface, path.ray.direction);
   matt_.offset[lane] = scene_.description().epsilon.value_or(surface.position_error);
   matt_.color.set(lane, material.color);
@@ -282,10 +282,11 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
 
 // Does for those that wait what shade_any() does for one.
 void PathTracer::shade_matt(int depth) {
+  const auto count = static_cast<int>(matt_.count);
   matt_.lights.count = matt_.count;
   lights_.sample(matt_.lights, light_samples_);
   matt_.find_light(light_samples_, settings_.sampling);
-  for (std::size_t i = 0; i < matt_.count; ++i) {
+  for (int i = 0; i < count; ++i) {
     if (matt_.is_lit[i] == 0) continue;
     const LightSamples& to = light_samples_;
     LightSample light;
@@ -296,7 +297,7 @@ void PathTracer::shade_matt(int depth) {
              depth);
   }
   matt_.scatter();
-  for (std::size_t i = 0; i < matt_.count; ++i) {
+  for (int i = 0; i < count; ++i) {
     const std::uint32_t index = matt_.path[i];
     Path& path = paths_[index];
     const Vector3f direction = matt_.direction.at(i), position = matt_.position.at(i);
