@@ -13,6 +13,7 @@
 #include "lights/illuminate.hpp"
 #include "lights/light_tree.hpp"
 #include "scene/placed_surface.hpp"
+#include "shapes/parallelogram.hpp"
 #include "textures/material_at.hpp"
 
 namespace raytracer {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "raytracer/scene.hpp"
-#include "shapes/parallelogram.hpp"
+#include "shapes/places_seen.hpp"
 
 namespace raytracer {
 

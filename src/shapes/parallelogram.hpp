@@ -7,32 +7,10 @@
 
 #include "raytracer/shape.hpp"
 #include "shapes/part_sampling.hpp"
+#include "shapes/places_seen.hpp"
 #include "shapes/spherical_rectangle.hpp"
 
 namespace raytracer::shapes {
-
-/// Where sixteen observers are, and the two numbers in [0, 1) each chooses a point by.
-struct PlacesToSeeFrom {
-  static constexpr std::size_t kSize = 16;
-  alignas(64) float x[kSize], y[kSize], z[kSize], u[kSize], v[kSize];
-
-  Vector3d place(std::size_t i) const {
-    return {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
-  }
-};
-
-/// What each has chosen, with the density per steradian; 0: nothing.
-struct PlacesSeen {
-  static constexpr std::size_t kSize = PlacesToSeeFrom::kSize;
-  alignas(64) float x[kSize], y[kSize], z[kSize], pdf[kSize];
-
-  void set(std::size_t i, const Vector3d& point, float density) {
-    x[i] = static_cast<float>(point.x);
-    y[i] = static_cast<float>(point.y);
-    z[i] = static_cast<float>(point.z);
-    pdf[i] = density;
-  }
-};
 
 /// The points corner + s width + t height with s, t in [0, 1]. World space.
 struct Parallelogram {
