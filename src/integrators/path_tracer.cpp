@@ -9,6 +9,7 @@
 #include "integrators/weights.hpp"
 #include "materials/absorption.hpp"
 #include "scene/any_material.hpp"
+#include "shapes/hit_block.hpp"
 
 namespace raytracer {
 namespace {
@@ -42,6 +43,8 @@ float weight_of_met(Sampling sampling, float chosen, float by_lights) {
   if (sampling == Sampling::kMaterials || !(by_lights > 0)) return 1;
   return sampling == Sampling::kLights ? 0 : power_heuristic(chosen, by_lights);
 }
+
+bool is_hidden_light(const Material& material) { return !material.is_visible && material.is_area_light; }
 
 bool is_cutout(const Material& material) {
   return material.alpha < 1 || (material.textures != nullptr && material.textures->alpha != nullptr);
@@ -89,7 +92,8 @@ Media media_at(const Scene& scene, const Vector3f& position) {
 
 PathWorld::PathWorld(const Scene& scene)
     : has_cutouts(any_material(scene.description(), is_cutout)),
-      has_media(any_material(scene.description(), has_inside)) {
+      has_media(any_material(scene.description(), has_inside)),
+      has_hidden_lights(any_material(scene.description(), is_hidden_light)) {
   if (has_media) media = media_at(scene, scene.camera().position());
 }
 
@@ -150,7 +154,8 @@ PathTracer::PathTracer(const Scene& scene, const PathSettings& settings, const P
       media_(world.media),
       lights_(scene.lights()),
       has_cutouts_(world.has_cutouts),
-      has_media_(world.has_media) {}
+      has_media_(world.has_media),
+      has_hidden_lights_(world.has_hidden_lights) {}
 
 void PathTracer::trace(std::span<const Ray3f> rays, std::span<const RayCone> cones,
                        std::span<const PathNumber> numbers, std::span<Color3f> colors) {
@@ -191,16 +196,20 @@ void PathTracer::find_hits(int depth) {
   const std::size_t count = paths_.size();
   const Coherence coherence = depth == 0 ? Coherence::kCoherent : Coherence::kIncoherent;
   ray_count_ += count;
-  hits_.assign(count, Hit{});
+  hits_.resize(count);
   is_hit_.resize(count);
-  std::array<Ray3f, kMostRays> rays;
-  for (std::size_t first = 0; first < count; first += kMostRays) {
-    const std::size_t size = std::min(kMostRays, count - first);
-    for (std::size_t i = 0; i < size; ++i) rays[i] = paths_[first + i].ray;
-    const std::uint32_t found =
-        scene_.is_hit(std::span(rays).first(size), std::span(hits_).subspan(first, size), coherence);
-    for (std::size_t i = 0; i < size; ++i) is_hit_[first + i] = found >> i & 1U;
+  RayBlock rays{};
+  HitBlock hits;
+  for (std::size_t first = 0; first < count; first += kBlockSize) {
+    const std::size_t size = std::min<std::size_t>(kBlockSize, count - first);
+    for (std::size_t i = 0; i < size; ++i) rays.set(static_cast<int>(i), paths_[first + i].ray);
+    const BlockMask found = scene_.is_hit(rays, BlockMask::first(size), hits, coherence);
+    for (std::size_t i = 0; i < size; ++i) {
+      is_hit_[first + i] = found.has(static_cast<int>(i)) ? 1 : 0;
+      hits_[first + i] = hits.at(static_cast<int>(i));
+    }
   }
+  if (!has_cutouts_ && !(has_hidden_lights_ && depth == 0)) return;
   for (std::uint32_t i = 0; i < count; ++i) pass_through(paths_[i], i, depth);
 }
 
@@ -218,7 +227,7 @@ void PathTracer::pass_through(Path& path, std::uint32_t index, int depth) {
 bool PathTracer::is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const {
   const Hit& hit = hits_[index];
   const Material& material = scene_.material_of(hit);
-  if (!material.is_visible && material.is_area_light && depth == 0) return true;
+  if (is_hidden_light(material) && depth == 0) return true;
   if (!has_cutouts_ || !is_cutout(material)) return false;
   // Who has come into glass by a hole sees none of it; who has come in through the glass sees all of it.
   if (has_inside(material) && leaves(scene_, path.ray, hit)) return !media_of_[index].contains(&material);
@@ -437,11 +446,11 @@ void PathTracer::let_wait(const Ray3f& ray, Color3f light, std::uint32_t slot, c
     if (most > settings_.clamp_indirect) light *= settings_.clamp_indirect / most;
   }
   const std::size_t i = waiting_.count++;
-  waiting_.rays[i] = ray;
+  waiting_.rays.set(static_cast<int>(i), ray);
   waiting_.light[i] = light;
   waiting_.slot[i] = slot;
   if (has_cutouts_ && media != nullptr) waiting_.media[i] = *media;
-  if (waiting_.count == kMostRays) add_unoccluded();
+  if (waiting_.count == kBlockSize) add_unoccluded();
 }
 
 // Chooses where the path goes on; false where it ends.
@@ -494,13 +503,14 @@ void PathTracer::add_unoccluded() {
   ray_count_ += count;
   if (has_cutouts_) {
     for (std::size_t i = 0; i < count; ++i) {
-      add(waiting_.slot[i], share_seen(waiting_.rays[i], waiting_.media[i]) * waiting_.light[i], 0);
+      add(waiting_.slot[i],
+          share_seen(waiting_.rays.ray(static_cast<int>(i)), waiting_.media[i]) * waiting_.light[i], 0);
     }
     return;
   }
-  const std::uint32_t hidden = scene_.is_occluded(std::span(waiting_.rays, count), Coherence::kIncoherent);
+  const BlockMask hidden = scene_.is_occluded(waiting_.rays, BlockMask::first(count), Coherence::kIncoherent);
   for (std::size_t i = 0; i < count; ++i) {
-    if ((hidden >> i & 1U) == 0) add(waiting_.slot[i], waiting_.light[i], 0);
+    if (!hidden.has(static_cast<int>(i))) add(waiting_.slot[i], waiting_.light[i], 0);
   }
 }
 

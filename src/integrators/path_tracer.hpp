@@ -32,9 +32,10 @@ Media media_at(const Scene& scene, const Vector3f& position);
 struct PathWorld {
   explicit PathWorld(const Scene& scene);
 
-  bool has_cutouts;  ///< whether any material is there for some rays only
-  bool has_media;    ///< whether any has an inside
-  Media media;       ///< around the eye
+  bool has_cutouts;        ///< whether any material is there for some rays only
+  bool has_media;          ///< whether any has an inside
+  bool has_hidden_lights;  ///< whether any area light is not seen by the camera
+  Media media;             ///< around the eye
 };
 
 /// Follows many paths at once, bounce by bounce, so that the shadow rays of every depth are traced in
@@ -67,10 +68,10 @@ class PathTracer {
   // Shadow rays that wait until they are a packet, and what each lets pass.
   struct ShadowRays {
     std::size_t count = 0;
-    Ray3f rays[kMostRays];
-    Color3f light[kMostRays];
-    std::uint32_t slot[kMostRays];
-    Media media[kMostRays];  // around their origins, where cut-outs and glass are about
+    RayBlock rays{};
+    Color3f light[kBlockSize];
+    std::uint32_t slot[kBlockSize];
+    Media media[kBlockSize];  // around their origins, where cut-outs and glass are about
   };
 
   // A path's latest hit, with all that shading needs.
@@ -102,7 +103,7 @@ class PathTracer {
   const PathPoints& points_;
   const Media& media_;
   const LightSet& lights_;
-  bool has_cutouts_, has_media_;
+  bool has_cutouts_, has_media_, has_hidden_lights_;
   std::uint64_t ray_count_ = 0;
 
   std::vector<Path> paths_;  // those that go on; compacted after every bounce
