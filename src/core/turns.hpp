@@ -20,7 +20,8 @@ struct Turn {
 
 /// The turn by an angle from 0 to 2 pi, within 1e-13: Taylor's series about the nearest quarter.
 [[gnu::always_inline]] inline Turn turn_by(double angle) {
-  const auto quarter = static_cast<int>(angle * (2 / kPi) + 0.5);
+  const double quarters = angle * (2 / kPi) + 0.5;
+  const auto quarter = static_cast<int>(quarters < 5 ? quarters : 0.0);  // what is no angle stays none
   const double x = angle - static_cast<double>(quarter) * (kPi / 2), x2 = x * x;
   const double sine =
       x * (1 + x2 * (-1.0 / 6 +

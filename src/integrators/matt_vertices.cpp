@@ -33,13 +33,13 @@ void MattVertices::find_light(const LightSamples& samples, Sampling sampling) {
     const float chosen = cosine_pdf(cosine);  // the density with which the material would have
     const bool is_delta = samples.is_delta[i] != 0;
     const float heuristic = power_heuristic(light_pdf, chosen);
-    const float weight = is_delta | !is_weighted ? 1.0F : heuristic;
+    const float weight = (is_delta | !is_weighted) ? 1.0F : heuristic;
     const Color3f value = color_share(color.at(i)) * chosen;
     const Color3f radiance(samples.red[i], samples.green[i], samples.blue[i]);
     const Color3f result = throughput.at(i) * value * (weight / light_pdf) * radiance;
     found.set(i, result);
     const bool is_some = (result.x > 0) | (result.y > 0) | (result.z > 0);
-    is_found[i] = (cosine > 0) & (light_pdf > 0) & is_some & (is_delta | !is_delta_only) ? 1 : 0;
+    is_found[i] = ((cosine > 0) & (light_pdf > 0) & is_some & (is_delta | !is_delta_only)) ? 1 : 0;
   }
   light = found;
   start = from;

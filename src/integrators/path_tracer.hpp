@@ -117,7 +117,7 @@ class PathTracer {
   std::span<Color3f> colors_;
   ShadowRays waiting_;
   MattVertices matt_;  // those that wait to be shaded
-  LightSamples light_samples_;
+  LightSamples light_samples_{};
 };
 
 }  // namespace raytracer

@@ -242,7 +242,7 @@ void OnlyQuad::sample(const LightQueries& queries, LightSamples& samples) const 
     const Vector3f direction = way / distance;
     const Vector3f target = off_surface(position, quad.position_error, quad.normal, from);
     const bool is_seen = !quad.is_one_sided | (glm::dot(quad.normal, way) < 0);
-    const float pdf = (distance > 0) & (distance < kInfinity) & is_seen ? seen.pdf[i] : 0.0F;
+    const float pdf = ((distance > 0) & (distance < kInfinity) & is_seen) ? seen.pdf[i] : 0.0F;
     found.direction_x[i] = direction.x, found.direction_y[i] = direction.y;
     found.direction_z[i] = direction.z;
     found.target_x[i] = target.x, found.target_y[i] = target.y, found.target_z[i] = target.z;
