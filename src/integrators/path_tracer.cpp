@@ -25,10 +25,11 @@ constexpr std::uint32_t kFirstDirection = kCameraPairs + 2;
 constexpr std::array<bool, kPairsPerBounce> kAreCompanions = {true, false, true, false};  // at bounce 1
 
 // From here on the roulette decides whether a path is worth following, once it is weaker than this. Matt
-// rooms are a tenth more efficient than with 1 in its place, glass and metal half as much again: light that a
-// few paths in the dark find is what is noisy.
+// rooms are a tenth more efficient than with 1 in its place. Where glass or mirrors gather light that only
+// few paths find, these must not count for many: a fifth of the noise of such scenes is worth a tenth of the
+// time.
 constexpr int kFirstRoulette = 3;
-constexpr float kWeak = 0.25F;
+constexpr float kWeak = 0.25F, kWeakNearGlass = 0.1F;
 
 // How wide at least the cone of rays is that a surface has scattered.
 constexpr float kScatteredSpread = 0.1F;
@@ -48,6 +49,15 @@ bool is_hidden_light(const Material& material) { return !material.is_visible && 
 
 bool is_cutout(const Material& material) {
   return material.alpha < 1 || (material.textures != nullptr && material.textures->alpha != nullptr);
+}
+
+// Whether it sends light on that no shadow ray can find.
+bool gathers_light(const Material& material) {
+  constexpr float kSmooth = 0.15F;
+  const bool is_smooth_metal = material.metallic > 0 && material.roughness < kSmooth;
+  const MaterialTextures* textures = material.textures.get();
+  return material.transmission > 0 || material.shininess > 0 || is_smooth_metal ||
+         (textures != nullptr && (textures->transmission || textures->shininess));
 }
 
 // Whether the ray meets the surface from behind.
@@ -93,7 +103,8 @@ Media media_at(const Scene& scene, const Vector3f& position) {
 PathWorld::PathWorld(const Scene& scene)
     : has_cutouts(any_material(scene.description(), is_cutout)),
       has_media(any_material(scene.description(), has_inside)),
-      has_hidden_lights(any_material(scene.description(), is_hidden_light)) {
+      has_hidden_lights(any_material(scene.description(), is_hidden_light)),
+      weak(any_material(scene.description(), gathers_light) ? kWeakNearGlass : kWeak) {
   if (has_media) media = media_at(scene, scene.camera().position());
 }
 
@@ -155,7 +166,8 @@ PathTracer::PathTracer(const Scene& scene, const PathSettings& settings, const P
       lights_(scene.lights()),
       has_cutouts_(world.has_cutouts),
       has_media_(world.has_media),
-      has_hidden_lights_(world.has_hidden_lights) {}
+      has_hidden_lights_(world.has_hidden_lights),
+      weak_(world.weak) {}
 
 void PathTracer::trace(std::span<const Ray3f> rays, std::span<const RayCone> cones,
                        std::span<const PathNumber> numbers, std::span<Color3f> colors) {
@@ -482,7 +494,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
 float PathTracer::roulette(const Path& path, int depth, float u) const {
   const float strength = largest(path.throughput);
   if (!(strength > 0) || !(strength < kInfinity)) return 0;
-  const float survival = strength / (kWeak * path.radiance_scale);
+  const float survival = strength / (weak_ * path.radiance_scale);
   if (depth < kFirstRoulette || survival >= 1) return 1;
   return u < survival ? 1 / survival : 0;
 }

@@ -35,6 +35,7 @@ struct PathWorld {
   bool has_cutouts;        ///< whether any material is there for some rays only
   bool has_media;          ///< whether any has an inside
   bool has_hidden_lights;  ///< whether any area light is not seen by the camera
+  float weak;              ///< paths of less throughput may end
   Media media;             ///< around the eye
 };
 
@@ -104,6 +105,7 @@ class PathTracer {
   const Media& media_;
   const LightSet& lights_;
   bool has_cutouts_, has_media_, has_hidden_lights_;
+  float weak_;
   std::uint64_t ray_count_ = 0;
 
   std::vector<Path> paths_;  // those that go on; compacted after every bounce
