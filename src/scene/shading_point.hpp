@@ -59,6 +59,11 @@ inline Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
   return {point.offset_position, direction};
 }
 
+/// Whether a hit on it needs Scene::textured().
+inline bool varies(const Scene& scene, const Material& material) {
+  return material.textures != nullptr || (scene.has_vertex_colors() && material.takes_vertex_colors);
+}
+
 /// With what the vertices of a mesh say.
 inline Color3f surface_color(const Scene& scene, const Ray3f& ray, const Hit& hit, const Material& material) {
   if (!scene.has_vertex_colors() || !material.takes_vertex_colors) return material.color;
