@@ -378,7 +378,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   path.from = vertex.surface.position;
   path.from_normal = vertex.light_side;
   path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
-  if (!sample.is_delta && !cones_.empty()) cones_[index].spread = std::max(cones_[index].spread, 0.1F);
+  if (!sample.is_delta && !cones_.empty()) cones_[index].scatter(sample.pdf);
   if (sample.is_transmission && has_inside(vertex.material)) {
     Media& media = media_of_[index];
     const float before = media.ior();
