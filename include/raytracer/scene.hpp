@@ -17,6 +17,10 @@
 namespace raytracer {
 
 class Accelerator;
+struct BlockMask;
+struct HitBlock;
+struct RayBlock;
+struct SurfaceBlock;
 class LightSet;
 class ShiningParts;
 
@@ -125,6 +129,10 @@ class Scene {
   std::uint32_t is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Coherence coherence) const;
   std::uint32_t is_occluded(std::span<const Ray3f> rays, Coherence coherence) const;
 
+  /// Likewise for the lanes of a block that are asked about; tells which of them are answered by yes.
+  BlockMask is_hit(const RayBlock& rays, const BlockMask& asked, HitBlock& hits, Coherence coherence) const;
+  BlockMask is_occluded(const RayBlock& rays, const BlockMask& asked, Coherence coherence) const;
+
   /// The paper's recursion: what the ray sees, in the 0..255 units of the buffers, following at most
   /// `bounces_left` reflections.
   Color3f get_pixel_color(const Ray3f& ray, int bounces_left) const;
@@ -133,6 +141,9 @@ class Scene {
     if (hit.instance != kNoInstance) return instance_surface_at(ray, hit);
     return description_.shapes[hit.shape]->surface_at(ray, hit);
   }
+  /// Likewise for lanes that have met the same shape, of the same instance.
+  void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                   SurfaceBlock& surfaces) const;
   SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const {
     if (hit.instance != kNoInstance) return instance_detail_at(ray, hit);
     return description_.shapes[hit.shape]->detail_at(ray, hit);

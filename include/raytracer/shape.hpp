@@ -61,6 +61,10 @@ struct ShapeSample {
 class TriangleMesh;
 struct RayPacket;
 struct HitPacket;
+struct RayBlock;
+struct HitBlock;
+struct BlockMask;
+struct SurfaceBlock;
 
 /// Pure geometry in world space: it knows no text, no material and no acceleration structure. Immutable.
 class Shape {
@@ -81,6 +85,11 @@ class Shape {
 
   /// The full surface at a hit that is_hit() returned for this ray.
   virtual SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const = 0;
+
+  /// The very same for the lanes that are asked about; the others keep what they hold. What this class does,
+  /// asking surface_at() for each, is right for every shape.
+  virtual void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                           SurfaceBlock& surfaces) const;
 
   /// Likewise what textures need; apart from the surface, since most hits need none of it. By default:
   /// nothing.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cameras/lens.hpp"
+#include "cameras/pinhole.hpp"
 #include "core/numeric.hpp"
 #include "raytracer/error.hpp"
 
@@ -49,13 +50,7 @@ Camera::Camera(const Vector3d& position, const Vector3d& look_at, const Vector3d
 }
 
 Ray3f Camera::ray_through(double x, double y) const {
-  if (!is_plain_) return ray_on_lens(x, y, Vector2f(0));
-  const auto across = static_cast<float>(2 * x - 1);
-  const auto upwards = static_cast<float>(1 - 2 * y);
-  Ray3f ray;
-  ray.origin = position_;
-  ray.direction = glm::normalize(forward_ + across * right_ + upwards * up_);
-  return ray;
+  return is_plain_ ? pinhole_ray(*this, x, y) : ray_on_lens(x, y, Vector2f(0));
 }
 
 Ray3f Camera::ray_through(double x, double y, const Vector2f& lens) const {

@@ -1,7 +1,9 @@
 // Rounding from double to float with a known direction, and how large its error is.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "raytracer/vector3f.hpp"
 
@@ -19,6 +21,13 @@ inline constexpr double kPi = 3.14159265358979323846;
 inline float float_above(double x) {
   const float rounded = static_cast<float>(x);
   return rounded < x ? std::nextafter(rounded, kInfinity) : rounded;
+}
+
+/// Likewise of x >= 0, without branches.
+inline float float_above_positive(double x) {
+  const float rounded = static_cast<float>(x);
+  const std::uint32_t step = static_cast<double>(rounded) < x ? 1 : 0;
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) + step);
 }
 
 /// The greatest float that is not above x.

@@ -1,6 +1,8 @@
 // What a light without extent does at a point. Inline: asked for every point and light.
 #pragma once
 
+#include "core/lanes.hpp"
+#include "core/with_constant.hpp"
 #include "raytracer/light.hpp"
 
 namespace raytracer {
@@ -13,7 +15,7 @@ struct Illumination {
 
 namespace lights {
 
-inline float fade(Falloff falloff, float distance) {
+constexpr float fade(Falloff falloff, float distance) {
   switch (falloff) {
     case Falloff::kNone:
       return 1;
@@ -27,16 +29,39 @@ inline float fade(Falloff falloff, float distance) {
 
 // The share of a spot's light in a direction whose cosine to its axis is given.
 inline float cone_share(const Light& light, float cosine) {
-  if (cosine >= light.cos_inner) return 1;
-  if (cosine <= light.cos_outer) return 0;
-  return glm::smoothstep(light.cos_outer, light.cos_inner, cosine);
+  const float share = glm::smoothstep(light.cos_outer, light.cos_inner, cosine);
+  return cosine >= light.cos_inner ? 1.0f : cosine <= light.cos_outer ? 0.0f : share;
 }
 
-inline Illumination from_far_away(const Light& light, const Vector3f& normal,
-                                  const Vector3f& offset_position) {
-  const float cosine = -glm::dot(light.direction, normal);
-  if (!(cosine > 0)) return {};
-  return {light.lambda * cosine, {offset_position, -light.direction}};
+// Without branches: it is done to blocks of points.
+template <Light::Kind kKind, Falloff kFalloff>
+inline Illumination illuminate(const Light& light, const Vector3f& position, const Vector3f& normal,
+                               const Vector3f& offset_position) {
+  if constexpr (kKind == Light::Kind::kDirectional) {
+    const float cosine = -glm::dot(light.direction, normal);
+    return {light.lambda * (cosine > 0 ? cosine : 0.0f), {offset_position, -light.direction}};
+  } else {
+    const Vector3f to_light = light.position - position;
+    const float distance = glm::length(to_light);
+    const float facing = glm::dot(to_light, normal);
+    float strength = facing / distance * fade(kFalloff, distance);
+    if constexpr (kKind == Light::Kind::kSpot) {
+      strength *= cone_share(light, -glm::dot(to_light / distance, light.direction));
+    }
+    const bool is_lit = (facing > 0) & (distance > 0) & (distance < kInfinity);
+    return {light.lambda * (is_lit ? strength : 0.0f),
+            {offset_position, light.position - offset_position, 0, 1}};
+  }
+}
+
+// Calls function(kind, falloff) with what the light is as constants.
+template <class Function>
+inline auto with_kind(const Light& light, const Function& function) {
+  using Kind = Light::Kind;
+  return with_constant<Kind::kPoint, Kind::kSpot, Kind::kDirectional>(light.kind, [&](auto kind) {
+    return with_constant<Falloff::kNone, Falloff::kLinear, Falloff::kQuadratic>(
+        light.falloff, [&](auto falloff) { return function(kind, falloff); });
+  });
 }
 
 }  // namespace lights
@@ -45,16 +70,24 @@ inline Illumination from_far_away(const Light& light, const Vector3f& normal,
 /// kin. The shadow ray starts at `offset_position`.
 inline Illumination illuminate(const Light& light, const Vector3f& position, const Vector3f& normal,
                                const Vector3f& offset_position) {
-  if (light.kind == Light::Kind::kDirectional) return lights::from_far_away(light, normal, offset_position);
-  const Vector3f to_light = light.position - position;
-  const float distance = glm::length(to_light);
-  const float facing = glm::dot(to_light, normal);
-  if (!(facing > 0) || !(distance > 0 && distance < kInfinity)) return {};
-  const Vector3f direction = to_light / distance;
-  float strength = facing / distance * lights::fade(light.falloff, distance);
-  if (light.kind == Light::Kind::kSpot)
-    strength *= lights::cone_share(light, -glm::dot(direction, light.direction));
-  return {light.lambda * strength, {offset_position, light.position - offset_position, 0, 1}};
+  return lights::with_kind(light, [&](auto kind, auto falloff) {
+    return lights::illuminate<kind(), falloff()>(light, position, normal, offset_position);
+  });
+}
+
+/// The very same for a block of points.
+inline void illuminate(const Light& light, const Vector3Block& position, const Vector3Block& normal,
+                       const Vector3Block& offset_position, ColorBlock& __restrict color,
+                       RayBlock& __restrict shadow_rays) {
+  const Light source = light;
+  lights::with_kind(light, [&](auto kind, auto falloff) {
+    for (int i = 0; i < kBlockSize; ++i) {
+      const Illumination one =
+          lights::illuminate<kind(), falloff()>(source, position.at(i), normal.at(i), offset_position.at(i));
+      color.set(i, one.color);
+      shadow_rays.set(i, one.shadow_ray);
+    }
+  });
 }
 
 }  // namespace raytracer

@@ -47,13 +47,21 @@ constexpr std::uint32_t sobol_second(std::uint32_t index) {
 /// The upper 24 bits as a number in [0, 1).
 constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8U) * 0x1p-24F; }
 
-/// Point `index` of the sequence that belongs to `seed`, in [0, 1)^2.
-constexpr Vector2f sobol_point(std::uint32_t index, std::uint32_t seed) {
+/// Point `index` of the sequence before any scramble, as two 32-bit fractions.
+struct SobolBits {
+  std::uint32_t x, y;
+  constexpr explicit SobolBits(std::uint32_t index) : x(reverse_bits(index)), y(sobol_second(index)) {}
+};
+
+/// That point of the sequence that belongs to `seed`, in [0, 1)^2. Without branches, for blocks of pixels.
+constexpr Vector2f sobol_point(const SobolBits& bits, std::uint32_t seed) {
   // The second seed is a hash of the first: hashes of two numbers that differ by a constant are not
   // independent enough.
   const std::uint32_t first = hash_bits(seed), second = hash_bits(first ^ 0x9E3779B9U);
-  return {unit_float(owen_scramble(reverse_bits(index), first)),
-          unit_float(owen_scramble(sobol_second(index), second))};
+  return {unit_float(owen_scramble(bits.x, first)), unit_float(owen_scramble(bits.y, second))};
+}
+constexpr Vector2f sobol_point(std::uint32_t index, std::uint32_t seed) {
+  return sobol_point(SobolBits(index), seed);
 }
 
 }  // namespace raytracer

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "raytracer/error.hpp"
@@ -23,10 +24,16 @@ constexpr unsigned kAllGeometry = 0xFFFFFFFF;  // Embree 4's default mask would 
 // farther out, and nothing in the tree can be seen from there in single precision.
 constexpr float kFarthest = 1.8e18f;
 
-bool is_within_reach(const Ray3f& ray) {
-  const Vector3f largest = glm::max(glm::abs(ray.origin), glm::abs(ray.direction));
-  return largest.x < kFarthest && largest.y < kFarthest && largest.z < kFarthest;
+// Without branches, for blocks of rays; false where anything is no number.
+inline bool is_within_reach(const Vector3f& v) {
+  const float x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+  return (x < kFarthest) & (y < kFarthest) & (z < kFarthest);
 }
+inline bool is_within_reach(const Vector3f& origin, const Vector3f& direction) {
+  const bool starts_near = is_within_reach(origin), is_short = is_within_reach(direction);
+  return starts_near & is_short;
+}
+inline bool is_within_reach(const Ray3f& ray) { return is_within_reach(ray.origin, ray.direction); }
 
 // Written out whole, for Embree reads four floats at once and would have to wait for eight single stores.
 RTCRay to_embree(const Ray3f& ray) {
@@ -44,34 +51,32 @@ RTCRay to_embree(const Ray3f& ray) {
           0};
 }
 
-void set_lane(RTCRay16& rays, std::size_t i, const Ray3f& ray) {
-  rays.org_x[i] = ray.origin.x;
-  rays.org_y[i] = ray.origin.y;
-  rays.org_z[i] = ray.origin.z;
-  rays.tnear[i] = ray.t_min;
-  rays.dir_x[i] = ray.direction.x;
-  rays.dir_y[i] = ray.direction.y;
-  rays.dir_z[i] = ray.direction.z;
-  rays.time[i] = 0;
-  rays.tfar[i] = ray.t_max;
-  rays.mask[i] = kAllGeometry;
-  rays.id[i] = rays.flags[i] = 0;
+void copy_lanes(float* to, const float* from) { std::memcpy(to, from, kBlockSize * sizeof(float)); }
+
+void set_rays(RTCRay16& query, const RayBlock& rays) {
+  copy_lanes(query.org_x, rays.origin_x);
+  copy_lanes(query.org_y, rays.origin_y);
+  copy_lanes(query.org_z, rays.origin_z);
+  copy_lanes(query.tnear, rays.t_min);
+  copy_lanes(query.dir_x, rays.direction_x);
+  copy_lanes(query.dir_y, rays.direction_y);
+  copy_lanes(query.dir_z, rays.direction_z);
+  copy_lanes(query.tfar, rays.t_max);
+  for (int i = 0; i < kBlockSize; ++i) {
+    query.time[i] = 0;
+    query.mask[i] = kAllGeometry;
+    query.id[i] = query.flags[i] = 0;
+  }
 }
 
-// The lanes of a packet that Embree shall follow, as it wants them marked: those of the first `count` that
-// are within reach, as above.
-struct alignas(64) ValidLanes {
-  int lane[kMostRays];
-  ValidLanes(const RTCRay16& rays, std::size_t count) {
-    const auto is_near = [](float x) { return (x < kFarthest) & (x > -kFarthest); };
-    for (std::size_t i = 0; i < kMostRays; ++i) {
-      const bool is_valid = (i < count) & is_near(rays.org_x[i]) & is_near(rays.org_y[i]) &
-                            is_near(rays.org_z[i]) & is_near(rays.dir_x[i]) & is_near(rays.dir_y[i]) &
-                            is_near(rays.dir_z[i]);
-      lane[i] = is_valid ? -1 : 0;
-    }
+// The lanes that Embree shall follow: those that are within reach, as above.
+BlockMask lanes_within_reach(const RayBlock& rays, const BlockMask& asked) {
+  BlockMask mask;
+  for (int i = 0; i < kBlockSize; ++i) {
+    mask.lane[i] = is_within_reach(rays.origin(i), rays.direction(i)) ? asked.lane[i] : 0;
   }
-};
+  return mask;
+}
 
 // One for the whole program: it holds the choice of instruction set, not scenes.
 RTCDevice device() {
@@ -168,6 +173,21 @@ struct Accelerator::Tree {
     return true;
   }
 
+  // Likewise for the lanes of a block; shortens the rays for the tree in `t_max`.
+  BlockMask ask_endless(const RayBlock& rays, const BlockMask& asked, HitBlock& hits, float* t_max) const {
+    BlockMask found = BlockMask::none();
+    for (int i = 0; i < kBlockSize; ++i) {
+      if (!asked.has(i)) continue;
+      Ray3f rest = rays.ray(i);
+      Hit hit;
+      if (!is_endless_hit(rest, hit)) continue;
+      hits.set(i, hit);
+      t_max[i] = rest.t_max;
+      found.set(i, true);
+    }
+    return found;
+  }
+
   // A hit in the tree, as Embree tells it.
   struct Found {
     float t;
@@ -262,47 +282,42 @@ bool Accelerator::is_occluded(const Ray3f& ray) const {
   return !tree_->endless.is_empty() && tree_->endless.is_occluded(ray);
 }
 
-std::uint32_t Accelerator::is_hit(std::span<const Ray3f> rays, std::span<Hit> hits,
-                                  Coherence coherence) const {
+BlockMask Accelerator::is_hit(const RayBlock& rays, const BlockMask& asked, HitBlock& hits,
+                              Coherence coherence) const {
   RTCRayHit16 query;
-  if (rays.size() < kMostRays) query = {};  // the lanes that nobody fills
-  std::uint32_t answer = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    Ray3f rest = rays[i];
-    answer |= std::uint32_t{tree_->is_endless_hit(rest, hits[i])} << i;
-    set_lane(query.ray, i, rest);
-    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  if (tree_->scene == nullptr) return answer;
-  embree::intersect(ValidLanes(query.ray, rays.size()).lane, tree_->scene, query, coherence);
-  const RTCHit16& found = query.hit;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    const bool hits_endless = (answer >> i & 1U) != 0;
-    const Tree::Found lane{query.ray.tfar[i], found.instID[0][i], found.geomID[i], found.primID[i],
-                           found.Ng_x[i],     found.u[i],         found.v[i]};
+  set_rays(query.ray, rays);
+  BlockMask found = BlockMask::none();
+  if (!tree_->endless.is_empty()) found = tree_->ask_endless(rays, asked, hits, query.ray.tfar);
+  if (tree_->scene == nullptr) return found;
+  for (int i = 0; i < kBlockSize; ++i) query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  embree::intersect(lanes_within_reach(rays, asked).lane, tree_->scene, query, coherence);
+  const RTCHit16& hit = query.hit;
+  for (int i = 0; i < kBlockSize; ++i) {
+    if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const Tree::Found lane{query.ray.tfar[i], hit.instID[0][i], hit.geomID[i], hit.primID[i],
+                           hit.Ng_x[i],       hit.u[i],         hit.v[i]};
     tree_->prefetch(lane);
-    tree_->choose(lane, hits_endless, hits[i]);
-    answer |= 1U << i;
+    Hit nearest = found.has(i) ? hits.at(i) : Hit{};
+    tree_->choose(lane, found.has(i), nearest);
+    hits.set(i, nearest);
+    found.set(i, true);
   }
-  return answer;
+  return found;
 }
 
-std::uint32_t Accelerator::is_occluded(std::span<const Ray3f> rays, Coherence coherence) const {
-  std::uint32_t answer = 0;
+BlockMask Accelerator::is_occluded(const RayBlock& rays, const BlockMask& asked, Coherence coherence) const {
+  BlockMask hidden = BlockMask::none();
   if (tree_->scene != nullptr) {
     RTCRay16 query;
-    if (rays.size() < kMostRays) query = {};
-    for (std::size_t i = 0; i < rays.size(); ++i) set_lane(query, i, rays[i]);
-    embree::occluded(ValidLanes(query, rays.size()).lane, tree_->scene, query, coherence);
-    for (std::size_t i = 0; i < rays.size(); ++i) answer |= std::uint32_t{query.tfar[i] < 0} << i;
+    set_rays(query, rays);
+    embree::occluded(lanes_within_reach(rays, asked).lane, tree_->scene, query, coherence);
+    for (int i = 0; i < kBlockSize; ++i) hidden.lane[i] = query.tfar[i] < 0 ? asked.lane[i] : 0;
   }
-  if (tree_->endless.is_empty()) return answer;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if ((answer >> i & 1U) == 0) answer |= std::uint32_t{tree_->endless.is_occluded(rays[i])} << i;
+  if (tree_->endless.is_empty()) return hidden;
+  for (int i = 0; i < kBlockSize; ++i) {
+    if (asked.has(i) && !hidden.has(i)) hidden.set(i, tree_->endless.is_occluded(rays.ray(i)));
   }
-  return answer;
+  return hidden;
 }
 
 }  // namespace raytracer

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "raytracer/scene.hpp"
+#include "shapes/hit_block.hpp"
 
 namespace raytracer {
 
@@ -24,9 +25,9 @@ class Accelerator {
   bool is_hit(const Ray3f& ray, Hit& hit) const;
   bool is_occluded(const Ray3f& ray) const;
 
-  /// The very same for up to kMostRays rays at once; bit i of the result is the answer for ray i.
-  std::uint32_t is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Coherence coherence) const;
-  std::uint32_t is_occluded(std::span<const Ray3f> rays, Coherence coherence) const;
+  /// The very same for the lanes that are asked about; tells which of them are answered by yes.
+  BlockMask is_hit(const RayBlock& rays, const BlockMask& asked, HitBlock& hits, Coherence coherence) const;
+  BlockMask is_occluded(const RayBlock& rays, const BlockMask& asked, Coherence coherence) const;
 
  private:
   struct Tree;

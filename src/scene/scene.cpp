@@ -9,6 +9,7 @@
 #include "scene/pixel_color.hpp"
 #include "scene/shining_parts.hpp"
 #include "scene/vertex_colors.hpp"
+#include "shapes/hit_block.hpp"
 
 namespace raytracer {
 
@@ -40,12 +41,50 @@ bool Scene::is_hit(const Ray3f& ray, Hit& hit) const { return accelerator_->is_h
 
 bool Scene::is_occluded(const Ray3f& ray) const { return accelerator_->is_occluded(ray); }
 
+BlockMask Scene::is_hit(const RayBlock& rays, const BlockMask& asked, HitBlock& hits,
+                        Coherence coherence) const {
+  return accelerator_->is_hit(rays, asked, hits, coherence);
+}
+
+BlockMask Scene::is_occluded(const RayBlock& rays, const BlockMask& asked, Coherence coherence) const {
+  return accelerator_->is_occluded(rays, asked, coherence);
+}
+
+namespace {
+
+RayBlock block_of(std::span<const Ray3f> rays) {
+  RayBlock block{};
+  for (std::size_t i = 0; i < rays.size(); ++i) block.set(static_cast<int>(i), rays[i]);
+  return block;
+}
+
+}  // namespace
+
 std::uint32_t Scene::is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Coherence coherence) const {
-  return accelerator_->is_hit(rays, hits, coherence);
+  HitBlock found;
+  const BlockMask is_found = is_hit(block_of(rays), BlockMask::first(rays.size()), found, coherence);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (is_found.has(static_cast<int>(i))) hits[i] = found.at(static_cast<int>(i));
+  }
+  return is_found.bits();
 }
 
 std::uint32_t Scene::is_occluded(std::span<const Ray3f> rays, Coherence coherence) const {
-  return accelerator_->is_occluded(rays, coherence);
+  return is_occluded(block_of(rays), BlockMask::first(rays.size()), coherence).bits();
+}
+
+void Scene::surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                        SurfaceBlock& surfaces) const {
+  constexpr int kFew = 2;  // are done sooner one by one
+  int first = 0;
+  while (first < kBlockSize && !asked.has(first)) ++first;
+  if (first == kBlockSize) return;
+  if (hits.instance[first] == kNoInstance && asked.count() > kFew) {
+    return description_.shapes[hits.shape[first]]->surfaces_at(rays, hits, asked, surfaces);
+  }
+  for (int i = first; i < kBlockSize; ++i) {
+    if (asked.has(i)) surfaces.set(i, surface_at(rays.ray(i), hits.at(i)));
+  }
 }
 
 Color3f Scene::get_pixel_color(const Ray3f& ray, int bounces_left) const {

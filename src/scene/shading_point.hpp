@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "raytracer/scene.hpp"
 
@@ -53,31 +54,35 @@ struct ShadingPoint {
   Vector3f shadow_position;  ///< where rays to lights start
 };
 
-inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hit& hit,
+/// Of a point `surface` of the scene that a ray meets at t. Without branches: it is done to blocks of points.
+inline ShadingPoint shading_point(bool has_epsilon, float epsilon, const Ray3f& ray, float t,
                                   const SurfacePoint& surface) {
   ShadingPoint point;
-  const bool is_back = glm::dot(surface.normal, ray.direction) > 0;
-  point.normal = is_back ? -surface.normal : surface.normal;
-  point.shading_normal = is_back ? -surface.shading_normal : surface.shading_normal;
-  if (const auto& epsilon = scene.description().epsilon) {
-    // The paper's way: the point as the ray's equation gives it, its rounding error included.
-    point.position = ray.at(hit.t);
-    point.offset_position = point.position + *epsilon * point.normal;
-  } else {
-    point.position = surface.position;
-    point.offset_position = point.position + surface.position_error * point.normal;
-  }
+  const float side = glm::dot(surface.normal, ray.direction) > 0 ? -1.0f : 1.0f;
+  point.normal = side * surface.normal;
+  point.shading_normal = side * surface.shading_normal;
+  // With an epsilon, the paper's way: the point as the ray's equation gives it, its rounding error included.
+  const Vector3f along = ray.at(t);
+  point.position = {has_epsilon ? along.x : surface.position.x, has_epsilon ? along.y : surface.position.y,
+                    has_epsilon ? along.z : surface.position.z};
+  point.offset_position = point.position + (has_epsilon ? epsilon : surface.position_error) * point.normal;
   point.shadow_position = point.offset_position + surface.shadow_offset;
   return point;
+}
+
+inline ShadingPoint shading_point(const Scene& scene, const Ray3f& ray, const Hit& hit,
+                                  const SurfacePoint& surface) {
+  const std::optional<float>& epsilon = scene.description().epsilon;
+  return shading_point(epsilon.has_value(), epsilon.value_or(0), ray, hit.t, surface);
 }
 
 /// A mirror that is curved by its shading normals alone may send a ray into itself: it then goes along the
 /// surface.
 inline Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
-  Vector3f direction = glm::reflect(ray.direction, point.shading_normal);
+  const Vector3f direction = glm::reflect(ray.direction, point.shading_normal);
   const float away = glm::dot(direction, point.normal);
-  if (away < 0) direction -= 1.001f * away * point.normal;
-  return {point.offset_position, direction};
+  const float back = away < 0 ? 1.001f * away : 0.0f;
+  return {point.offset_position, direction - back * point.normal};
 }
 
 /// Whether a hit on it needs Scene::textured().

@@ -14,6 +14,7 @@
 #include "scene_file/draft.hpp"
 #include "scene_file/evaluator.hpp"
 #include "scene_file/files.hpp"
+#include "scene_file/least_shapes.hpp"
 #include "scene_file/limits.hpp"
 #include "scene_file/mesh_store.hpp"
 #include "scene_file/scene_hash.hpp"
@@ -201,6 +202,7 @@ struct Definition {
   Frame frame;          ///< around it
   std::array<std::size_t, 3>
       heights{};  ///< of the stacks of values, definitions and materials where it stands
+  LeastMade least;
 };
 
 class Builder {
@@ -289,6 +291,8 @@ class Builder {
                                                  const std::vector<Value>& arguments, Surroundings inside,
                                                  const std::string& key, const Place& used_at);
   Value parameter_default(const ParameterNode& parameter, const Surroundings& around);
+  LeastShapes least_shapes(const Surroundings& around);
+  bool is_fresh(const Definition& definition) const;
   std::shared_ptr<const Definition> find_definition(NameId name, const Surroundings& around) const;
 
   const KindRow* resolve_kind(const BlockNode& block, const Surroundings& around, std::string_view& name);

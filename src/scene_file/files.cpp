@@ -124,6 +124,16 @@ const SyntaxTree* Files::add_main(std::string name, std::string path, std::strin
 
 std::string Files::find(const std::string& file, const Place& from, std::string_view what,
                         Diagnostics& diagnostics) const {
+  // A scene may name a file ten thousand times, and the system takes its time over each.
+  const std::string key = from.source->path() + '\0' + file;
+  if (const auto known = found_.find(key); known != found_.end()) return known->second;
+  std::string path = look_for(file, from, what, diagnostics);
+  if (!path.empty()) found_.emplace(key, path);
+  return path;
+}
+
+std::string Files::look_for(const std::string& file, const Place& from, std::string_view what,
+                            Diagnostics& diagnostics) const {
   if (file.empty()) {
     diagnostics.error(from, "the name of a file is empty", fmt::format("it names {}", what));
     return {};

@@ -70,6 +70,8 @@ class Files {
     std::unique_ptr<SyntaxTree> tree;
   };
 
+  std::string look_for(const std::string& file, const Place& from, std::string_view what,
+                       Diagnostics& diagnostics) const;
   bool is_allowed(const std::string& canonical_path) const;
   void read_pictures_ahead(const SyntaxTree& tree);
   const SyntaxTree* add(std::string name, std::string path, std::string text, Diagnostics& diagnostics);
@@ -81,6 +83,7 @@ class Files {
   std::unordered_map<std::string, const SyntaxTree*> by_path_;          ///< canonical
   std::unordered_map<std::string, const SyntaxTree*> by_written_path_;  ///< as folder and name make it
   std::unordered_map<std::string, SceneHash> hashes_;
+  mutable std::unordered_map<std::string, std::string> found_;  ///< what find() has told, by text and name
   PictureCache pictures_;
 };
 

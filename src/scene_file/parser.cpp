@@ -188,9 +188,8 @@ void Parser::parse_bad_block(std::vector<ItemNode>& items) {
 
 // How many words, the current one included, stand before a '{' if a block begins here; 0 if none does.
 int Parser::words_before_brace() const {
-  const int most = may_have_variant(tokens_.text()) ? 3 : 2;
   Lexer ahead = tokens_.ahead();
-  for (int words = 1; words <= most; ++words) {
+  for (int words = 1; words <= 2 || (words == 3 && may_have_variant(tokens_.text())); ++words) {
     const Token token = ahead.next(LexMode::kValues);
     if (token.type == TokenType::kOpenBrace) return words;
     if (token.type != TokenType::kWord || is_statement(tokens_.text(token.span))) return 0;

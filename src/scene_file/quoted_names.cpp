@@ -85,6 +85,7 @@ class Collector {
 }  // namespace
 
 std::vector<std::string> quoted_names(const SyntaxTree& tree, const Names& names) {
+  if (tree.source->text().find('"') == std::string_view::npos) return {};
   Collector collector(*tree.source, names, false);
   collector.add(tree.items);
   return collector.take().all;

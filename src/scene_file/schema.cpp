@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <unordered_map>
 #include <vector>
 
 #include "scene_file/kinds.hpp"
@@ -60,16 +62,51 @@ std::span<const KindRow> all_kinds() {
 std::span<const PropertyRow> transform_properties() { return kTransformRows; }
 const PropertyRow& material_property() { return kMaterialRow; }
 
+namespace {
+
+// The kinds by their names. It is asked for every word of a scene, most of which are none: that is mostly
+// known by first letter and length.
+class KindIndex {
+ public:
+  KindIndex() {
+    for (const KindRow& row : all_kinds()) {
+      by_name_[row.name].push_back(&row);
+      lengths_[letter(row.name)] |= bit(row.name);
+    }
+  }
+
+  // One, or its variants.
+  std::span<const KindRow* const> named(std::string_view name) const {
+    if (name.empty() || (lengths_[letter(name)] & bit(name)) == 0) return {};
+    const auto found = by_name_.find(name);
+    if (found == by_name_.end()) return {};
+    return found->second;
+  }
+
+ private:
+  static std::size_t letter(std::string_view name) { return static_cast<unsigned char>(name.front()); }
+  static std::uint64_t bit(std::string_view name) { return std::uint64_t{1} << (name.size() % 64); }
+
+  std::unordered_map<std::string_view, std::vector<const KindRow*>> by_name_;
+  std::array<std::uint64_t, 256> lengths_{};  // bit i: there is a name of that letter of i (mod 64) letters
+};
+
+std::span<const KindRow* const> kinds_named(std::string_view name) {
+  static const KindIndex index;
+  return index.named(name);
+}
+
+}  // namespace
+
 const KindRow* find_kind(std::string_view name, std::string_view variant) {
-  for (const KindRow& row : all_kinds()) {
-    if (row.name == name && row.variant == variant) return &row;
+  for (const KindRow* row : kinds_named(name)) {
+    if (row->variant == variant) return row;
   }
   return nullptr;
 }
 
 bool may_have_variant(std::string_view kind) {
-  return std::ranges::any_of(all_kinds(),
-                             [&](const KindRow& row) { return row.name == kind && !row.variant.empty(); });
+  return std::ranges::any_of(kinds_named(kind), [](const KindRow* row) { return !row->variant.empty(); });
 }
 
 std::string called(const KindRow& kind) {
@@ -97,10 +134,9 @@ const KindRow* find_texture_kind(std::string_view name) { return find_kind(kText
 
 bool is_property_of(std::string_view kind, std::string_view property) {
   // Of a definition nobody knows the parameters here, but it is placed and made of a material as a group is.
-  if (!kind.empty() && find_kind(kind) == nullptr && !may_have_variant(kind)) kind = "group";
-  return std::ranges::any_of(all_kinds(), [&](const KindRow& row) {
-    return row.name == kind && find_property(row, property) != nullptr;
-  });
+  if (!kind.empty() && kinds_named(kind).empty()) kind = "group";
+  return std::ranges::any_of(kinds_named(kind),
+                             [&](const KindRow* row) { return find_property(*row, property) != nullptr; });
 }
 
 std::string describe_type(const PropertyRow& row) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "core/suggest.hpp"
 #include "scene_file/builder.hpp"
@@ -14,10 +15,6 @@ namespace {
 // Reading a file is no small step: ten files that each include the next one ten times would be 10^10 of them.
 constexpr std::uint64_t kStepsPerInclude = 10'000;
 constexpr std::uint64_t kStepsPerUse = 10;
-
-// A definition that makes fewer shapes is built at every use: an instance costs as much as a handful of
-// shapes, and a ray pays for entering it.
-constexpr std::uint64_t kLeastToShare = 16;
 
 PropertyType parameter_type(ValueType type) {
   switch (type) {
@@ -33,64 +30,6 @@ PropertyType parameter_type(ValueType type) {
       return PropertyType::kNumber;
   }
 }
-
-// Counts the shapes that a loop's text makes at least, before it is run: branches, definitions and files are
-// left out, as are loops whose ends are known only inside of it.
-class LeastShapes {
- public:
-  LeastShapes(Evaluator& evaluator, const Source& source, const Visibility& visible)
-      : evaluator_(evaluator), source_(source), visible_(visible) {}
-
-  /// In one turn.
-  double of(const ForNode& loop) {
-    inner_names_.push_back(loop.name);
-    return of(loop.items);
-  }
-
- private:
-  double of(std::span<const ItemNode> items) {
-    double shapes = 0;
-    for (const ItemNode& item : items) {
-      if (const auto* inner = std::get_if<const ForNode*>(&item)) {
-        const double turns = turns_of(**inner);
-        shapes += turns > 0 ? turns * of(**inner) : 0;
-      } else if (const auto* block = std::get_if<const BlockNode*>(&item)) {
-        const KindRow* kind = find_kind(source_.text((*block)->kind));
-        if (kind == nullptr || kind->block_class != BlockClass::kObject) continue;
-        shapes += kind->has_children ? of((*block)->items) : kind->takes_material ? 1 : 0;
-      } else if (const auto* let = std::get_if<const LetNode*>(&item)) {
-        inner_names_.push_back((*let)->name);
-      } else if (std::holds_alternative<const IncludeNode*>(item)) {
-        return shapes;  // what follows may use its names
-      }
-    }
-    return shapes;
-  }
-
-  double turns_of(const ForNode& loop) {
-    const double from = number(loop.from), to = number(loop.to), step = loop.step ? number(loop.step) : 1;
-    const double turns = std::floor((to - from) / step + 1e-9) + 1;
-    return std::isfinite(turns) ? turns : 0;
-  }
-
-  // Not a number where it is not known yet.
-  double number(const Expression* e) {
-    const Value value = uses_inner_name(*e) ? Value{} : evaluator_.evaluate(*e, source_, visible_);
-    return value.is_number() ? value.x() : std::nan("");
-  }
-
-  bool uses_inner_name(const Expression& e) const {
-    return (e.operation == Operation::kName &&
-            std::ranges::find(inner_names_, e.name) != inner_names_.end()) ||
-           std::ranges::any_of(e.arguments,
-                               [this](const Expression* each) { return uses_inner_name(*each); });
-  }
-
-  Evaluator& evaluator_;
-  const Source& source_;
-  const Visibility& visible_;
-  std::vector<NameId> inner_names_;
-};
 
 }  // namespace
 
@@ -191,8 +130,7 @@ void Builder::build_for(const ForNode& loop, const Surroundings& around) {
         "--limit steps=N allows more");
     return;
   }
-  LeastShapes least(evaluator_, *around.source, around.frame->values);
-  if (turns > 1 && !has_room_for(turns * least.of(loop), place)) return;
+  if (turns > 1 && !has_room_for(turns * least_shapes(around).in_turn_of(loop), place)) return;
   auto& bindings = evaluator_.bindings();
   NameTable names;
   Surroundings inside = around;
@@ -286,9 +224,32 @@ void Builder::build_define(const DefineNode& define, const Surroundings& around)
   }
   if (SceneRecorder* told = recorder()) told->define(definition.get(), definition->name);
   if (around.is_top) top_definitions_.push_back(definition);
+  diagnostics_.mute(true);  // what is wrong is told when it is used
+  definition->least = least_shapes(around).of(define);
+  diagnostics_.mute(false);
   // Its own name belongs to what the body sees: a definition may use itself.
   definition->heights = {evaluator_.bindings().height(), definitions_.height() + 1, materials_.height()};
   definitions_.push(define.name, std::move(definition), place);
+}
+
+LeastShapes Builder::least_shapes(const Surroundings& around) {
+  return LeastShapes(evaluator_, *around.source, around.frame->values,
+                     [this, &around](NameId name) { return find_definition(name, around); });
+}
+
+// Whether neither it nor any of the definitions in it has been used.
+bool Builder::is_fresh(const Definition& definition) const {
+  std::unordered_set<const Definition*> seen = {&definition};
+  std::vector<const Definition*> waiting = {&definition};
+  while (!waiting.empty()) {
+    const Definition* next = waiting.back();
+    waiting.pop_back();
+    if (used_definitions_.contains(next->node)) return false;
+    for (const auto& inner : next->least.uses) {
+      if (seen.insert(inner.get()).second) waiting.push_back(inner.get());
+    }
+  }
+  return true;
 }
 
 void Builder::build_use(const std::shared_ptr<const Definition>& definition, const BlockNode& block,
@@ -299,6 +260,7 @@ void Builder::build_use(const std::shared_ptr<const Definition>& definition, con
     return halt(place, fmt::format("uses of definitions are nested more than {} deep", limits_.nesting),
                 "a definition that uses itself needs an 'if' that ends it; --limit nesting=N allows more");
   }
+  if (is_fresh(*definition) && !has_room_for(definition->least.at_first, place)) return;
   used_definitions_[definition->node] = true;
   const std::string_view name =
       block.words.empty() ? std::string_view() : around.source->text(block.words[0]);

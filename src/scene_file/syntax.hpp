@@ -62,12 +62,12 @@ enum class ValueKind : std::uint8_t { kNumber, kString, kColor, kWord, kExpressi
 
 /// One value as it was written.
 struct ValueNode {
-  ValueKind kind = ValueKind::kBad;
   Span span;
-  double number = 0;        ///< of a kNumber
-  NameId name = 0;          ///< of a kWord; of a kString that is decoded its text
-  bool is_decoded = false;  ///< of a kString: the source's text is not as it stands between its quotes
+  double number = 0;                       ///< of a kNumber
   const Expression* expression = nullptr;  ///< of a kExpression
+  NameId name = 0;                         ///< of a kWord; of a kString that is decoded its text
+  ValueKind kind = ValueKind::kBad;
+  bool is_decoded = false;  ///< of a kString: the source's text is not as it stands between its quotes
 };
 
 struct BlockNode;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 
 #include "shapes/hits.hpp"
 
@@ -19,8 +20,14 @@ template <bool kBranches = true, class T, class Vector>
 inline bool intersect_ball(const Vector& from, const Vector& direction, T radius, Span<T>& span) {
   const T b = -glm::dot(from, direction);
   const T squared_radius = radius * radius;
-  const T c = glm::dot(from, from) - squared_radius;
-  const T inverse_a = T(1) / glm::dot(direction, direction);
+  const T squared_distance = glm::dot(from, from), a = glm::dot(direction, direction);
+  if constexpr (kBranches) {
+    // So far past that no rounding matters: most lines that miss are told without a quotient.
+    constexpr T kRounding = 1e4f * std::numeric_limits<T>::epsilon();
+    if (squared_distance * a - b * b > (squared_radius + kRounding * squared_distance) * a) return false;
+  }
+  const T c = squared_distance - squared_radius;
+  const T inverse_a = T(1) / a;
   const Vector closest = from + (b * inverse_a) * direction;
   const T discriminant = squared_radius - glm::dot(closest, closest);
   if constexpr (kBranches) {

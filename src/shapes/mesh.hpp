@@ -26,6 +26,8 @@ class TriangleMesh final : public Shape {
   /// Asks one triangle after the other; among equal t the first counts. The accelerator's oracle.
   bool is_hit(const Ray3f& ray, Hit& hit) const override;
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override;
+  void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                   SurfaceBlock& surfaces) const override;
   SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override;
   const TriangleMesh* as_mesh() const override { return this; }
 

@@ -65,6 +65,17 @@ class Quad final : public Shape {
     return surface_of({static_cast<double>(hit.u), static_cast<double>(hit.v)});
   }
 
+  void surfaces_at(const RayBlock&, const HitBlock& hits, const BlockMask& asked,
+                   SurfaceBlock& surfaces) const override {
+    const shapes::Parallelogram face = face_;
+    flat_.fill(
+        asked,
+        [&](int i) {
+          return face.at({static_cast<double>(hits.u[i]), static_cast<double>(hits.v[i])});
+        },
+        surfaces);
+  }
+
   SurfaceDetail detail_at(const Ray3f&, const Hit& hit) const override {
     SurfaceDetail detail;
     detail.uv = {hit.u, hit.v};

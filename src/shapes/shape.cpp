@@ -1,7 +1,16 @@
 // What a shape does that does not say otherwise.
 #include "raytracer/shape.hpp"
 
+#include "shapes/hit_block.hpp"
+
 namespace raytracer {
+
+void Shape::surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                        SurfaceBlock& surfaces) const {
+  for (int i = 0; i < kBlockSize; ++i) {
+    if (asked.has(i)) surfaces.set(i, surface_at(rays.ray(i), hits.at(i)));
+  }
+}
 
 SurfaceDetail Shape::detail_at(const Ray3f&, const Hit&) const { return {}; }
 

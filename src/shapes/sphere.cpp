@@ -6,6 +6,7 @@
 #include "shapes/ball_sampling.hpp"
 #include "shapes/checks.hpp"
 #include "shapes/frame.hpp"
+#include "shapes/hit_block.hpp"
 #include "shapes/hits.hpp"
 #include "shapes/part_sampling.hpp"
 
@@ -82,6 +83,15 @@ class Sphere final : public Shape {
     return surface_along(normal_at(ray, hit));
   }
 
+  void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                   SurfaceBlock& surfaces) const override {
+    Lanes lanes;
+    SurfaceBlock own;
+    place_lanes(rays, hits, lanes, own);
+    bound_lanes(lanes, own);
+    shapes::set_lanes(surfaces, asked, own);
+  }
+
   SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
     const Vector3d normal = normal_at(ray, hit);
     Vector3d along_u, along_v;
@@ -112,9 +122,12 @@ class Sphere final : public Shape {
   }
 
  private:
-  Vector3d normal_at(const Ray3f& ray, const Hit& hit) const {
-    const Vector3d found = Vector3d(ray.origin) + static_cast<double>(hit.t) * Vector3d(ray.direction);
+  Vector3d normal_at(const Vector3f& origin, const Vector3f& direction, float t) const {
+    const Vector3d found = Vector3d(origin) + static_cast<double>(t) * Vector3d(direction);
     return glm::normalize(found - center_);
+  }
+  Vector3d normal_at(const Ray3f& ray, const Hit& hit) const {
+    return normal_at(ray.origin, ray.direction, hit.t);
   }
 
   /// How far off a place may be that was rounded to float a few times, in radii.
@@ -125,14 +138,52 @@ class Sphere final : public Shape {
 
   SurfacePoint surface_along(const Vector3d& normal) const {
     const Vector3d position = center_ + radius_ * normal;
+    return shapes::rounded_surface(position, normal, bound_at(position));
+  }
+
+  shapes::SurfaceBound bound_at(const Vector3d& position) const {
     shapes::SurfaceBound bound;
     // The least that a tangent turned by the rounding of the normal needs to clear the sphere is its square.
     constexpr double kTilt = kFloatRounding * kFloatRounding;
     const Vector3d rounding = 2 * kFloatRounding * glm::abs(position);
-    bound.bend =
-        kTilt * radius_ + std::min(0.5 * glm::dot(rounding, rounding) / radius_, glm::length(rounding));
+    const double squared = glm::dot(rounding, rounding), bend = 0.5 * squared / radius_,
+                 length = std::sqrt(squared);
+    bound.bend = kTilt * radius_ + (length < bend ? length : bend);
     bound.arithmetic = arithmetic_;
-    return shapes::rounded_surface(position, normal, bound);
+    return bound;
+  }
+
+  // Of a block of points, before they are rounded.
+  struct alignas(64) Lanes {
+    double normal_x[kBlockSize], normal_y[kBlockSize], normal_z[kBlockSize];
+    double x[kBlockSize], y[kBlockSize], z[kBlockSize];
+  };
+
+  // surface_along() in two loops: the second reads from memory what the first has rounded.
+  void place_lanes(const RayBlock& rays, const HitBlock& hits, Lanes& __restrict lanes,
+                   SurfaceBlock& __restrict surfaces) const {
+    for (int i = 0; i < kBlockSize; ++i) {
+      const Vector3d normal = normal_at(rays.origin(i), rays.direction(i), hits.t[i]);
+      const Vector3d position = center_ + radius_ * normal;
+      lanes.normal_x[i] = normal.x;
+      lanes.normal_y[i] = normal.y;
+      lanes.normal_z[i] = normal.z;
+      lanes.x[i] = position.x;
+      lanes.y[i] = position.y;
+      lanes.z[i] = position.z;
+      surfaces.position.set(i, Vector3f(position));
+      surfaces.normal.set(i, Vector3f(normal));
+      surfaces.shading_normal.set(i, Vector3f(normal));
+      surfaces.shadow_offset.set(i, Vector3f(0));
+    }
+  }
+  void bound_lanes(const Lanes& lanes, SurfaceBlock& __restrict surfaces) const {
+    for (int i = 0; i < kBlockSize; ++i) {
+      const Vector3d position(lanes.x[i], lanes.y[i], lanes.z[i]),
+          normal(lanes.normal_x[i], lanes.normal_y[i], lanes.normal_z[i]);
+      surfaces.position_error[i] = shapes::surface_error(position, normal, Vector3d(surfaces.position.at(i)),
+                                                         Vector3d(surfaces.normal.at(i)), bound_at(position));
+    }
   }
 
   Vector3d center_;

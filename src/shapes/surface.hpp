@@ -4,6 +4,7 @@
 
 #include "core/numeric.hpp"
 #include "raytracer/shape.hpp"
+#include "shapes/hit_block.hpp"
 
 namespace raytracer::shapes {
 
@@ -19,23 +20,41 @@ struct SurfaceBound {
   Vector3d extent{0.0};
 };
 
-/// Rounds `position` and the unit vector `normal` to float. A ray that starts at position + position_error *
-/// normal (computed in float), or as far on the other side, starts beyond the surface: the bound adds up how
-/// far the rounded position is off along the normal, how far the rounded origin of the ray may be, and
-/// `bound`.
+/// SurfacePoint::position_error of a point whose position and unit normal are rounded to float. A ray that
+/// starts at position + position_error * normal (computed in float), or as far on the other side, starts
+/// beyond the surface: the bound adds up how far the rounded position is off along the normal, how far the
+/// rounded origin of the ray may be, and `bound`. Without branches, for blocks of points.
+inline float surface_error(const Vector3d& position, const Vector3d& normal, const Vector3d& rounded_position,
+                           const Vector3d& rounded_normal, const SurfaceBound& bound) {
+  constexpr double kSlack = 1.01;  // for the product and the terms of second order
+  const Vector3d off = rounded_position - position;
+  const double rounding = kFloatRounding * glm::dot(glm::abs(normal), glm::abs(position));
+  const double tilt = glm::dot(glm::abs(rounded_normal - normal), bound.extent);
+  const double error = std::abs(glm::dot(off, normal)) + rounding + tilt + bound.bend + bound.arithmetic;
+  return float_above_positive(kSlack * error);
+}
+
+/// Rounds `position` and the unit vector `normal` to float.
 inline SurfacePoint rounded_surface(const Vector3d& position, const Vector3d& normal,
                                     const SurfaceBound& bound) {
-  constexpr double kSlack = 1.01;  // for the product and the terms of second order
   SurfacePoint point;
   point.position = Vector3f(position);
   point.normal = Vector3f(normal);
   point.shading_normal = point.normal;
-  const Vector3d off = as_float(position) - position;
-  const double rounding = kFloatRounding * glm::dot(glm::abs(normal), glm::abs(position));
-  const double tilt = glm::dot(glm::abs(as_float(normal) - normal), bound.extent);
-  const double error = std::abs(glm::dot(off, normal)) + rounding + tilt + bound.bend + bound.arithmetic;
-  point.position_error = float_above(kSlack * error);
+  point.position_error = surface_error(position, normal, as_float(position), as_float(normal), bound);
   return point;
+}
+
+/// Sets the lanes that are asked about.
+inline void set_lanes(SurfaceBlock& __restrict surfaces, const BlockMask& asked, const SurfaceBlock& own) {
+  for (int i = 0; i < kBlockSize; ++i) {
+    const bool is_asked = asked.has(i);
+    surfaces.position.choose(i, is_asked, own.position.at(i));
+    surfaces.normal.choose(i, is_asked, own.normal.at(i));
+    surfaces.shading_normal.choose(i, is_asked, own.shading_normal.at(i));
+    surfaces.shadow_offset.choose(i, is_asked, own.shadow_offset.at(i));
+    surfaces.position_error[i] = is_asked ? own.position_error[i] : surfaces.position_error[i];
+  }
 }
 
 /// The same for all points of a flat part at once: the greatest of their bounds stands for all, so that a
@@ -49,6 +68,18 @@ class FlatSurface {
     SurfaceBound both = bound;
     both.arithmetic += kFloatRounding * glm::dot(glm::abs(normal), farthest);
     point_ = rounded_surface(as_float(farthest), normal, both);
+  }
+
+  /// Likewise for a block of points; position(i) is called for all lanes, asked about or not.
+  template <class Position>
+  void fill(const BlockMask& asked, const Position& position, SurfaceBlock& surfaces) const {
+    SurfaceBlock own;
+    const SurfacePoint anywhere = point_;
+    for (int i = 0; i < kBlockSize; ++i) {
+      own.set(i, anywhere);
+      own.position.set(i, Vector3f(position(i)));
+    }
+    set_lanes(surfaces, asked, own);
   }
 
   SurfacePoint at(const Vector3d& position) const {

@@ -163,6 +163,12 @@ SLIPS = [
      ["--limit shapes=N"]),
     ("too many shapes by names", "let n = 8000\n«for i» from 1 to n { let k = n for j from n to 1 step -1 { cube { } } }",
      ["--limit shapes=N"]),
+    ("definitions that double", "\n".join(
+        ["define d0 { sphere { } }"] + [f"define d{i} {{ d{i - 1} {{ }} d{i - 1} {{ translate 1 0 0 }} }}" for i in range(1, 90)] +
+        ["«d89» { }"]), ["--limit shapes=N"]),
+    ("definitions that grow tenfold", "let n = 10\n" + "\n".join(
+        ["define d0 { cube { } }"] + [f"define d{i} {{ for i from 1 to n {{ d{i - 1} {{ translate (i) 0 0 }} }} }}" for i in range(1, 12)] +
+        ["«d11» { }"]), ["--limit shapes=N"]),
     # --- as other languages have it ---
     ("a comment of Python's", "«#» a comment { in \"Python's way\nsphere { }", ["comments begin with //"]),
     ("a comment of Python's behind a value", "sphere { radius 1 «#» the { size\n}", ["comments begin with //"]),

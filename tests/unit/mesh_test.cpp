@@ -69,26 +69,28 @@ Counts compare(const Shapes& shapes, int count, std::uint32_t seed) {
   Random random(seed);
   Counts counts;
   for (int i = 0; i < count; i += static_cast<int>(kMostRays)) {
-    std::array<Ray3f, kMostRays> rays;
-    std::array<Hit, kMostRays> packet;
-    for (Ray3f& ray : rays) {
-      ray.origin = Vector3f(random.vector(6));
-      ray.direction = Vector3f(random.vector(3)) - ray.origin;
+    RayBlock rays;
+    HitBlock packet;
+    for (int k = 0; k < kBlockSize; ++k) {
+      const Vector3f origin(random.vector(6));
+      rays.set(k, {origin, Vector3f(random.vector(3)) - origin});
     }
     const Coherence coherence = i % 32 == 0 ? Coherence::kCoherent : Coherence::kIncoherent;
-    const std::uint32_t found = tree.is_hit(rays, packet, coherence);
-    const std::uint32_t hidden = tree.is_occluded(rays, coherence);
-    for (std::size_t k = 0; k < kMostRays; ++k) {
+    const BlockMask all = BlockMask::first(kBlockSize);
+    const BlockMask found = tree.is_hit(rays, all, packet, coherence);
+    const BlockMask hidden = tree.is_occluded(rays, all, coherence);
+    for (int k = 0; k < kBlockSize; ++k) {
+      const Ray3f ray = rays.ray(k);
       Hit by_list, by_tree;
-      const bool in_list = list.is_hit(rays[k], by_list), in_tree = tree.is_hit(rays[k], by_tree);
-      const bool in_packet = (found >> k & 1U) != 0, is_hidden = (hidden >> k & 1U) != 0;
+      const bool in_list = list.is_hit(ray, by_list), in_tree = tree.is_hit(ray, by_tree);
+      const Hit in_lane = found.has(k) ? packet.at(k) : Hit{};
       counts.hits += in_list;
       const bool same =
-          in_list == in_tree && in_list == in_packet && in_list == is_hidden &&
-          in_list == tree.is_occluded(rays[k]) &&
-          (!in_list || (agrees(by_list, by_tree) && agrees(by_list, packet[k]) &&
-                        by_list.shape == by_tree.shape && by_list.shape == packet[k].shape &&
-                        by_list.primitive == by_tree.primitive && by_list.primitive == packet[k].primitive));
+          in_list == in_tree && in_list == found.has(k) && in_list == hidden.has(k) &&
+          in_list == tree.is_occluded(ray) &&
+          (!in_list || (agrees(by_list, by_tree) && agrees(by_list, in_lane) &&
+                        by_list.shape == by_tree.shape && by_list.shape == in_lane.shape &&
+                        by_list.primitive == by_tree.primitive && by_list.primitive == in_lane.primitive));
       counts.differences += !same;
     }
   }
@@ -102,11 +104,12 @@ int escaping(const MeshData& mesh, double scale, const Vector3d& away, int count
   const Accelerator tree(shapes);
   Random random(3);
   int escaped = 0;
-  std::array<Ray3f, kMostRays> rays;
-  std::array<Hit, kMostRays> hits;
+  RayBlock rays;
+  HitBlock hits;
+  Hit ignored;
   const auto& data = shapes[0]->as_mesh()->data();
   for (int i = 0; i < count; i += static_cast<int>(kMostRays)) {
-    for (std::size_t k = 0; k < kMostRays; ++k) {
+    for (int k = 0; k < kBlockSize; ++k) {
       Vector3d direction = random.unit();
       const Vector3f origin(scale * (random.vector(0.2) + away));
       // Half of them at edges.
@@ -114,13 +117,13 @@ int escaping(const MeshData& mesh, double scale, const Vector3d& away, int count
       const auto& t = data.triangles[corner / 3];
       const Vector3d p(data.positions[t[corner % 3]]), q(data.positions[t[(corner + 1) % 3]]);
       if (k % 2 == 0) direction = p + random.in(0, 1) * (q - p) - Vector3d(origin);
-      rays[k] = {origin, Vector3f(direction)};
+      rays.set(k, {origin, Vector3f(direction)});
     }
     if (i % 32 == 0) {
-      for (const Ray3f& ray : rays) escaped += !tree.is_hit(ray, hits[0]);
+      for (int k = 0; k < kBlockSize; ++k) escaped += !tree.is_hit(rays.ray(k), ignored);
     } else {
-      const std::uint32_t found = tree.is_hit(rays, hits, Coherence::kIncoherent);
-      for (std::size_t k = 0; k < kMostRays; ++k) escaped += (found >> k & 1U) == 0;
+      const BlockMask all = BlockMask::first(kBlockSize);
+      escaped += kBlockSize - tree.is_hit(rays, all, hits, Coherence::kIncoherent).count();
     }
   }
   return escaped;

@@ -1,13 +1,18 @@
 // Rays in bulk see what rays one by one see, to the last bit.
 #include <bit>
 #include <cstdint>
+#include <cstring>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include "catch.hpp"
+#include "lights/illuminate.hpp"
 #include "raytracer/scene.hpp"
 #include "raytracer/shapes.hpp"
 #include "scene/pixel_color.hpp"
+#include "shapes/hit_block.hpp"
+#include "shapes/mesh.hpp"
 #include "shapes/ray_packet.hpp"
 
 namespace {
@@ -89,16 +94,7 @@ void require_same(const Hit& a, const Hit& b) {
 
 RayPacket packet_of(const std::vector<Ray3f>& rays) {
   RayPacket packet;
-  for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
-    packet.origin_x[i] = rays[i].origin.x;
-    packet.origin_y[i] = rays[i].origin.y;
-    packet.origin_z[i] = rays[i].origin.z;
-    packet.direction_x[i] = rays[i].direction.x;
-    packet.direction_y[i] = rays[i].direction.y;
-    packet.direction_z[i] = rays[i].direction.z;
-    packet.t_min[i] = rays[i].t_min;
-    packet.t_max[i] = rays[i].t_max;
-  }
+  for (int i = 0; i < RayPacket::kSize; ++i) packet.set(i, rays[static_cast<std::size_t>(i)]);
   return packet;
 }
 
@@ -123,6 +119,107 @@ TEST_CASE("a shape says the same of eight rays as of each") {
     }
     REQUIRE(found > 100);
   }
+}
+
+std::shared_ptr<const MeshData> pyramid(bool is_smooth) {
+  auto data = std::make_shared<MeshData>();
+  data->positions = {{-2, 0, -2}, {2, 0.3F, -2}, {1.5F, 0, 2}, {-2, -0.2F, 1}, {0.1F, 2, 0}};
+  data->triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 1}, {0, 3, 2}};
+  if (is_smooth) {
+    for (const Vector3f& p : data->positions)
+      data->normals.push_back(glm::normalize(p - Vector3f(0, 0.5F, 0)));
+    data->normals[3] = Vector3f(0);  // as of a file that has none there
+  }
+  data->positions.reserve(data->positions.size() + 1);
+  return data;
+}
+
+bool is_same(const Vector3f& a, const Vector3f& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+TEST_CASE("a shape says the same of the surfaces of a block as of each, and leaves the others alone") {
+  Random random;
+  std::vector<std::unique_ptr<Shape>> shapes = one_of_each();
+  for (const bool is_smooth : {false, true}) {
+    shapes.push_back(std::make_unique<TriangleMesh>(pyramid(is_smooth), 0, 6));
+  }
+  const SurfacePoint untouched{{1, 2, 3}, 4, {5, 6, 7}, {8, 9, 10}, {11, 12, 13}};
+  for (const auto& shape : shapes) {
+    int found = 0;
+    for (int turn = 0; turn < 100; ++turn) {
+      RayBlock rays;
+      HitBlock hits{};
+      BlockMask asked = BlockMask::none();
+      SurfaceBlock surfaces;
+      for (int i = 0; i < kBlockSize; ++i) {
+        rays.set(i, random.ray());
+        Hit hit;
+        asked.set(i, shape->is_hit(rays.ray(i), hit));
+        hits.set(i, hit);
+        surfaces.set(i, untouched);
+      }
+      shape->surfaces_at(rays, hits, asked, surfaces);
+      for (int i = 0; i < kBlockSize; ++i) {
+        const SurfacePoint expected = asked.has(i) ? shape->surface_at(rays.ray(i), hits.at(i)) : untouched;
+        const SurfacePoint point = surfaces.at(i);
+        REQUIRE(is_same(point.position, expected.position));
+        REQUIRE(point.position_error == expected.position_error);
+        REQUIRE(is_same(point.normal, expected.normal));
+        REQUIRE(is_same(point.shading_normal, expected.shading_normal));
+        REQUIRE(point.shadow_offset == expected.shadow_offset);
+      }
+      found += asked.count();
+    }
+    REQUIRE(found > 100);
+  }
+}
+
+TEST_CASE("a light gives a block of points what it gives each") {
+  Random random;
+  int lit = 0;
+  for (const Light::Kind kind : {Light::Kind::kPoint, Light::Kind::kDirectional, Light::Kind::kSpot}) {
+    for (const Falloff falloff : {Falloff::kNone, Falloff::kLinear, Falloff::kQuadratic}) {
+      Light light;
+      light.kind = kind;
+      light.falloff = falloff;
+      light.position = {0.5F, 1, 0};
+      light.direction = glm::normalize(Vector3f(0.2F, -1, 0.1F));
+      light.cos_inner = 0.8F;
+      light.cos_outer = 0.2F;
+      Vector3Block positions, normals, origins;
+      for (int i = 0; i < kBlockSize; ++i) {
+        positions.set(i, random.in_box(3));
+        normals.set(i, glm::normalize(random.in_box(1)));
+        origins.set(i, positions.at(i) + 0.01F * normals.at(i));
+      }
+      positions.set(5, light.position);  // no light comes from nowhere
+      ColorBlock colors;
+      RayBlock shadow_rays;
+      illuminate(light, positions, normals, origins, colors, shadow_rays);
+      for (int i = 0; i < kBlockSize; ++i) {
+        const Illumination one = illuminate(light, positions.at(i), normals.at(i), origins.at(i));
+        REQUIRE(is_same(colors.at(i), one.color));
+        REQUIRE(is_same(shadow_rays.origin(i), one.shadow_ray.origin));
+        REQUIRE(is_same(shadow_rays.direction(i), one.shadow_ray.direction));
+        REQUIRE(shadow_rays.t_max[i] == one.shadow_ray.t_max);
+        lit += one.color != Color3f(0);
+      }
+    }
+  }
+  REQUIRE(lit > 30);
+}
+
+TEST_CASE("a scene answers for the lanes that it is asked about") {
+  const Scene scene(mirrors_and_lights());
+  RayBlock rays;
+  BlockMask asked;
+  for (int i = 0; i < kBlockSize; ++i) {
+    rays.set(i, {{0.1F * static_cast<float>(i), 5, 0}, {0, -1, 0}});
+    asked.set(i, i % 3 == 0);
+  }
+  HitBlock hits;
+  REQUIRE(scene.is_hit(rays, asked, hits, Coherence::kCoherent).bits() == asked.bits());
+  REQUIRE(scene.is_occluded(rays, asked, Coherence::kCoherent).bits() == asked.bits());
+  REQUIRE(scene.is_hit(rays, BlockMask::none(), hits, Coherence::kCoherent).is_empty());
 }
 
 TEST_CASE("a scene says the same of a packet of rays as of each") {
@@ -159,15 +256,14 @@ TEST_CASE("colours of many rays are those of each, and the rays are counted alik
   std::uint64_t expected_rays = 0;
   for (const int bounces : {3, 0, 8, 1}) {
     for (const std::size_t count : {0U, 1U, 16U, 203U}) {
-      std::vector<Ray3f> rays(count);
-      for (Ray3f& ray : rays) ray = random.ray();
-      std::vector<Color3f> colors(count);
-      tracer.trace(rays, bounces, colors);
+      std::vector<RayBlock> rays(blocks_for(count));
+      std::vector<ColorBlock> colors(rays.size());
+      for (std::size_t i = 0; i < count; ++i) rays[i / 16].set(static_cast<int>(i % 16), random.ray());
+      tracer.trace({rays, count}, bounces, colors);
       for (std::size_t i = 0; i < count; ++i) {
-        const Color3f expected = get_pixel_color(scene, rays[i], bounces, expected_rays);
-        for (int c = 0; c < 3; ++c) {
-          REQUIRE(std::bit_cast<std::uint32_t>(colors[i][c]) == std::bit_cast<std::uint32_t>(expected[c]));
-        }
+        const int lane = static_cast<int>(i % 16);
+        const Color3f expected = get_pixel_color(scene, rays[i / 16].ray(lane), bounces, expected_rays);
+        REQUIRE(is_same(colors[i / 16].at(lane), expected));
       }
     }
   }

@@ -1,0 +1,29 @@
+// Where rays go from the eye, and how much of the picture each stands for.
+#pragma once
+
+#include "cameras/pinhole.hpp"
+#include "raytracer/scene.hpp"
+#include "render/tile.hpp"
+#include "scene/shading_point.hpp"
+
+namespace raytracer {
+
+/// Points of sixteen pixels; (0, 0) is a pixel's upper left corner, (1, 1) its lower right one.
+struct alignas(64) WithinPixels {
+  float x[kBlockSize], y[kBlockSize];
+};
+
+PlaceBlock places_of(const PixelBlock& pixels, const WithinPixels& within, const Image& image);
+
+/// The ray through the point `within` of a pixel and a point of the lens.
+Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
+                 const Vector2f& lens);
+
+/// How wide what that ray stands for is, one of as many samples of the pixel.
+RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
+                    const Vector2f& lens, const Ray3f& ray, int samples);
+
+/// Whether anything needs those cones.
+bool has_textures(const SceneDescription& scene);
+
+}  // namespace raytracer

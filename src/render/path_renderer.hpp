@@ -1,0 +1,35 @@
+// `method path`, tile by tile.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "integrators/path_tracer.hpp"
+#include "raytracer/render.hpp"
+#include "render/tile.hpp"
+
+namespace raytracer {
+
+/// Renders the samples of one slice of time by path tracing. Any number of threads may call it.
+class PathRenderer {
+ public:
+  PathRenderer(const Scene& scene, const RenderSettings& settings, const Slice& slice, Image& image);
+
+  /// Adds to the tile's pixels; returns how many rays that took.
+  std::uint64_t render(const Tile& tile) const;
+
+ private:
+  void aim(const TilePixels& pixels, std::span<const Vector2f> places, std::span<const Vector2f> on_lens,
+           std::span<Ray3f> rays) const;
+
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  const Slice& slice_;
+  Image& image_;
+  PathSettings paths_;
+  PathPoints points_;
+  bool has_textures_;
+  PathWorld world_;
+};
+
+}  // namespace raytracer
