@@ -13,11 +13,11 @@ SMALL = ("--size", "40x24", "--samples", "1", "-q", "-o", "-")
 
 
 def png(width, height, pixel):
-    """A PNG of 8-bit RGB, or RGB and alpha, whose pixels are pixel(x, y)."""
+    """A PNG of 8-bit grey, RGB, or RGB and alpha, whose pixels are pixel(x, y)."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(width)) for y in range(height))
-    header = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[len(pixel(0, 0))], 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, 8, {1: 0, 3: 2, 4: 6}[len(pixel(0, 0))], 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
@@ -169,6 +169,21 @@ class Textures(unittest.TestCase):
         for words in (["texture"], ["texture", "checker"], ["sky", "sun"]):
             done = run("help", *words)
             self.assertEqual(done.returncode, 0, done.stderr.decode())
+
+    def test_bumps_of_an_mtl_file(self):
+        """Grey heights with the height that -bm says, and normals in colour that lean as much."""
+        (self.folder / "grey.png").write_bytes(png(8, 8, lambda x, y: (32 * (x % 3 + y % 2),)))
+        (self.folder / "a.obj").write_text(
+            "mtllib a.mtl\nusemtl m\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
+        own = LIGHT + 'mesh { file "a.obj"  %s }'
+        for bump, words in (("-bm 0.2 grey.png", 'bump image "grey.png"  bump_scale 0.2'),
+                            ("-bm 0.5 wood.png", 'normal_map image "wood.png"  normal_scale 0.5'),
+                            ("wood.png", 'normal_map image "wood.png"'), ("grey.png", "")):
+            with self.subTest(bump):
+                (self.folder / "a.mtl").write_text(f"newmtl m\nKd 0.5 0.5 0.5\nmap_bump {bump}\n")
+                told = run("check", self.write(own % "")).stderr.decode()
+                self.assertEqual("does not say with -bm" in told, bump == "grey.png", told)
+                self.assertEqual(self.render(self.write(own % "")), self.render(self.write(own % f"material {{ color 0.5  {words} }}")))
 
 
 if __name__ == "__main__":
