@@ -23,7 +23,10 @@ inline float float_above(double x) {
   return rounded < x ? std::nextafter(rounded, kInfinity) : rounded;
 }
 
-/// Likewise of x >= 0, without branches.
+/// The next float above x, which is positive and finite.
+inline float next_above(float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) + 1); }
+
+/// float_above() of x >= 0, without branches.
 inline float float_above_positive(double x) {
   const float rounded = static_cast<float>(x);
   const std::uint32_t step = static_cast<double>(rounded) < x ? 1 : 0;

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <vector>
 
+#include "core/numeric.hpp"
 #include "raytracer/error.hpp"
 #include "scene/callbacks.hpp"
 #include "scene/embree.hpp"
@@ -175,15 +176,9 @@ struct Accelerator::Tree {
 
   // Likewise for the lanes of a block; shortens the rays for the tree in `t_max`.
   BlockMask ask_endless(const RayBlock& rays, const BlockMask& asked, HitBlock& hits, float* t_max) const {
-    BlockMask found = BlockMask::none();
+    const BlockMask found = endless.find_hits(rays, asked, hits);
     for (int i = 0; i < kBlockSize; ++i) {
-      if (!asked.has(i)) continue;
-      Ray3f rest = rays.ray(i);
-      Hit hit;
-      if (!is_endless_hit(rest, hit)) continue;
-      hits.set(i, hit);
-      t_max[i] = rest.t_max;
-      found.set(i, true);
+      t_max[i] = found.has(i) ? next_above(hits.t[i]) : t_max[i];
     }
     return found;
   }
@@ -314,9 +309,11 @@ BlockMask Accelerator::is_occluded(const RayBlock& rays, const BlockMask& asked,
     for (int i = 0; i < kBlockSize; ++i) hidden.lane[i] = query.tfar[i] < 0 ? asked.lane[i] : 0;
   }
   if (tree_->endless.is_empty()) return hidden;
-  for (int i = 0; i < kBlockSize; ++i) {
-    if (asked.has(i) && !hidden.has(i)) hidden.set(i, tree_->endless.is_occluded(rays.ray(i)));
-  }
+  BlockMask rest;
+  for (int i = 0; i < kBlockSize; ++i) rest.lane[i] = asked.lane[i] & ~hidden.lane[i];
+  if (rest.is_empty()) return hidden;
+  const BlockMask behind = tree_->endless.are_occluded(rays, rest);
+  for (int i = 0; i < kBlockSize; ++i) hidden.lane[i] |= behind.lane[i];
   return hidden;
 }
 

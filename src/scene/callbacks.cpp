@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/numeric.hpp"
 #include "shapes/ray_packet.hpp"
 
 namespace raytracer {
@@ -90,9 +91,6 @@ RayPacket load(RTCRayN* rays, unsigned n, unsigned first, const int* valid) {
   for (int i = 0; i < kLanes; ++i) packet.t_max[i] = valid[i] != 0 ? t_max[i] : -kInfinity;
   return packet;
 }
-
-// The next float above x, which is positive and finite.
-float next_above(float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) + 1); }
 
 // All bits of a lane's number set, or none: what compilers make the processor's own vectors of.
 using LaneMask = std::array<std::uint32_t, kLanes>;

@@ -23,23 +23,33 @@ class Plane final : public Shape {
   Box3f bounds() const override { return Box3f::infinite(); }
 
   bool is_hit(const Ray3f& ray, Hit& hit) const override {
-    const Vector3d normal(normal_);
-    const Vector3d from = Vector3d(ray.origin) - point_;
-    const double t = -glm::dot(normal, from) / glm::dot(normal, Vector3d(ray.direction));
+    const double t = distance_along(ray.origin, ray.direction);
     if (!shapes::is_on_ray(ray, t)) return false;
     shapes::set_hit(hit, t);
     return true;
   }
 
+  void find_hits(const RayPacket& rays, HitPacket& hits) const override {
+    for (int i = 0; i < RayPacket::kSize; ++i) {
+      const double t = distance_along(rays.origin(i), rays.direction(i));
+      hits.t[i] = shapes::first_on_ray(rays, i, t, t);
+    }
+    shapes::clear_parameters(hits);
+  }
+
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
-    const Vector3d offset = offset_at(ray, hit);
-    shapes::SurfaceBound bound;
-    bound.arithmetic = 8 * kDoubleRounding * (glm::length(point_) + glm::length(offset));
-    return shapes::rounded_surface(point_ + offset, Vector3d(normal_), bound);
+    return shapes::rounded_surface(exact_at(ray.origin, ray.direction, hit.t));
+  }
+
+  void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                   SurfaceBlock& surfaces) const override {
+    const Plane plane = *this;  // that no store can change it
+    shapes::round_lanes(
+        asked, [&](int i) { return plane.exact_at(rays.origin(i), rays.direction(i), hits.t[i]); }, surfaces);
   }
 
   SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
-    const Vector3d offset = offset_at(ray, hit), normal(normal_);
+    const Vector3d offset = offset_at(ray.origin, ray.direction, hit.t), normal(normal_);
     SurfaceDetail detail;
     detail.uv = Vector2f(glm::dot(along_u_, offset), glm::dot(along_v_, offset));
     // In the plane, 1 along the one gradient and across the other.
@@ -50,11 +60,22 @@ class Plane final : public Shape {
   }
 
  private:
-  Vector3d offset_at(const Ray3f& ray, const Hit& hit) const {
+  double distance_along(const Vector3f& origin, const Vector3f& direction) const {
+    const Vector3d normal(normal_), from = Vector3d(origin) - point_;
+    return -glm::dot(normal, from) / glm::dot(normal, Vector3d(direction));
+  }
+
+  Vector3d offset_at(const Vector3f& origin, const Vector3f& direction, float t) const {
     const Vector3d normal(normal_);
-    const Vector3d found =
-        Vector3d(ray.origin) - point_ + static_cast<double>(hit.t) * Vector3d(ray.direction);
+    const Vector3d found = Vector3d(origin) - point_ + static_cast<double>(t) * Vector3d(direction);
     return found - glm::dot(normal, found) / glm::dot(normal, normal) * normal;
+  }
+
+  shapes::ExactPoint exact_at(const Vector3f& origin, const Vector3f& direction, float t) const {
+    const Vector3d offset = offset_at(origin, direction, t);
+    shapes::SurfaceBound bound;
+    bound.arithmetic = 8 * kDoubleRounding * (glm::length(point_) + glm::length(offset));
+    return {point_ + offset, Vector3d(normal_), bound};
   }
 
   Vector3d point_;

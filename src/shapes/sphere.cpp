@@ -85,11 +85,13 @@ class Sphere final : public Shape {
 
   void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
                    SurfaceBlock& surfaces) const override {
-    Lanes lanes;
-    SurfaceBlock own;
-    place_lanes(rays, hits, lanes, own);
-    bound_lanes(lanes, own);
-    shapes::set_lanes(surfaces, asked, own);
+    const Sphere sphere = *this;  // that no store can change it
+    shapes::round_lanes(
+        asked,
+        [&](int i) {
+          return sphere.exact_along(sphere.normal_at(rays.origin(i), rays.direction(i), hits.t[i]));
+        },
+        surfaces);
   }
 
   SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
@@ -137,11 +139,11 @@ class Sphere final : public Shape {
   }
 
   SurfacePoint surface_along(const Vector3d& normal) const {
-    const Vector3d position = center_ + radius_ * normal;
-    return shapes::rounded_surface(position, normal, bound_at(position));
+    return shapes::rounded_surface(exact_along(normal));
   }
 
-  shapes::SurfaceBound bound_at(const Vector3d& position) const {
+  shapes::ExactPoint exact_along(const Vector3d& normal) const {
+    const Vector3d position = center_ + radius_ * normal;
     shapes::SurfaceBound bound;
     // The least that a tangent turned by the rounding of the normal needs to clear the sphere is its square.
     constexpr double kTilt = kFloatRounding * kFloatRounding;
@@ -150,40 +152,7 @@ class Sphere final : public Shape {
                  length = std::sqrt(squared);
     bound.bend = kTilt * radius_ + (length < bend ? length : bend);
     bound.arithmetic = arithmetic_;
-    return bound;
-  }
-
-  // Of a block of points, before they are rounded.
-  struct alignas(64) Lanes {
-    double normal_x[kBlockSize], normal_y[kBlockSize], normal_z[kBlockSize];
-    double x[kBlockSize], y[kBlockSize], z[kBlockSize];
-  };
-
-  // surface_along() in two loops: the second reads from memory what the first has rounded.
-  void place_lanes(const RayBlock& rays, const HitBlock& hits, Lanes& __restrict lanes,
-                   SurfaceBlock& __restrict surfaces) const {
-    for (int i = 0; i < kBlockSize; ++i) {
-      const Vector3d normal = normal_at(rays.origin(i), rays.direction(i), hits.t[i]);
-      const Vector3d position = center_ + radius_ * normal;
-      lanes.normal_x[i] = normal.x;
-      lanes.normal_y[i] = normal.y;
-      lanes.normal_z[i] = normal.z;
-      lanes.x[i] = position.x;
-      lanes.y[i] = position.y;
-      lanes.z[i] = position.z;
-      surfaces.position.set(i, Vector3f(position));
-      surfaces.normal.set(i, Vector3f(normal));
-      surfaces.shading_normal.set(i, Vector3f(normal));
-      surfaces.shadow_offset.set(i, Vector3f(0));
-    }
-  }
-  void bound_lanes(const Lanes& lanes, SurfaceBlock& __restrict surfaces) const {
-    for (int i = 0; i < kBlockSize; ++i) {
-      const Vector3d position(lanes.x[i], lanes.y[i], lanes.z[i]),
-          normal(lanes.normal_x[i], lanes.normal_y[i], lanes.normal_z[i]);
-      surfaces.position_error[i] = shapes::surface_error(position, normal, Vector3d(surfaces.position.at(i)),
-                                                         Vector3d(surfaces.normal.at(i)), bound_at(position));
-    }
+    return {position, normal, bound};
   }
 
   Vector3d center_;

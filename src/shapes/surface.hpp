@@ -34,15 +34,25 @@ inline float surface_error(const Vector3d& position, const Vector3d& normal, con
   return float_above_positive(kSlack * error);
 }
 
-/// Rounds `position` and the unit vector `normal` to float.
+/// A point of a surface before it is rounded; the normal is of unit length.
+struct ExactPoint {
+  Vector3d position, normal;
+  SurfaceBound bound;
+};
+
+/// Rounds it to float.
+inline SurfacePoint rounded_surface(const ExactPoint& exact) {
+  SurfacePoint point;
+  point.position = Vector3f(exact.position);
+  point.normal = Vector3f(exact.normal);
+  point.shading_normal = point.normal;
+  point.position_error = surface_error(exact.position, exact.normal, as_float(exact.position),
+                                       as_float(exact.normal), exact.bound);
+  return point;
+}
 inline SurfacePoint rounded_surface(const Vector3d& position, const Vector3d& normal,
                                     const SurfaceBound& bound) {
-  SurfacePoint point;
-  point.position = Vector3f(position);
-  point.normal = Vector3f(normal);
-  point.shading_normal = point.normal;
-  point.position_error = surface_error(position, normal, as_float(position), as_float(normal), bound);
-  return point;
+  return rounded_surface(ExactPoint{position, normal, bound});
 }
 
 /// Sets the lanes that are asked about.
@@ -55,6 +65,43 @@ inline void set_lanes(SurfaceBlock& __restrict surfaces, const BlockMask& asked,
     surfaces.shadow_offset.choose(i, is_asked, own.shadow_offset.at(i));
     surfaces.position_error[i] = is_asked ? own.position_error[i] : surfaces.position_error[i];
   }
+}
+
+/// rounded_surface(exact(i)) for the lanes that are asked about. exact() is called for all lanes and must be
+/// without branches. Two loops: the second reads from memory what the first has rounded.
+template <class Exact>
+inline void round_lanes(const BlockMask& asked, const Exact& exact, SurfaceBlock& surfaces) {
+  struct alignas(64) Vectors {
+    double x[kBlockSize], y[kBlockSize], z[kBlockSize];
+
+    Vector3d at(int i) const { return {x[i], y[i], z[i]}; }
+    void set(int i, const Vector3d& v) {
+      x[i] = v.x;
+      y[i] = v.y;
+      z[i] = v.z;
+    }
+  };
+  Vectors positions, normals, extents;
+  alignas(64) double arithmetic[kBlockSize], bend[kBlockSize];
+  SurfaceBlock own;
+  for (int i = 0; i < kBlockSize; ++i) {
+    const ExactPoint point = exact(i);
+    positions.set(i, point.position);
+    normals.set(i, point.normal);
+    extents.set(i, point.bound.extent);
+    arithmetic[i] = point.bound.arithmetic;
+    bend[i] = point.bound.bend;
+    own.position.set(i, Vector3f(point.position));
+    own.normal.set(i, Vector3f(point.normal));
+    own.shading_normal.set(i, Vector3f(point.normal));
+    own.shadow_offset.set(i, Vector3f(0));
+  }
+  for (int i = 0; i < kBlockSize; ++i) {
+    own.position_error[i] =
+        surface_error(positions.at(i), normals.at(i), Vector3d(own.position.at(i)),
+                      Vector3d(own.normal.at(i)), {arithmetic[i], bend[i], extents.at(i)});
+  }
+  set_lanes(surfaces, asked, own);
 }
 
 /// The same for all points of a flat part at once: the greatest of their bounds stands for all, so that a
