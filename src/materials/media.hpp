@@ -26,6 +26,15 @@ struct Medium {
 /// of its own. Beyond the depth that it holds the outermost are forgotten.
 class Media {
  public:
+  Media() = default;
+  // Of the stack what is there: most paths are in nothing.
+  Media(const Media& other) { *this = other; }
+  Media& operator=(const Media& other) {
+    for (std::uint32_t i = 0; i < other.count_; ++i) stack_[i] = other.stack_[i];
+    count_ = other.count_;
+    return *this;
+  }
+
   /// Null outside of everything.
   const Medium* innermost() const { return count_ > 0 ? &stack_[count_ - 1] : nullptr; }
   float ior() const { return count_ > 0 ? stack_[count_ - 1].ior : 1.0F; }
