@@ -217,8 +217,8 @@ void PixelColors::add_light(const Task& task, const Light& light, const BlockMas
   rays_ += static_cast<std::uint64_t>(asked.count());
   const BlockMask hidden = find_hidden(shadow_rays, asked, task.coherence);
   for (int i = 0; i < kBlockSize; ++i) {
-    const float share = (asked.lane[i] & ~hidden.lane[i]) != 0 ? 1.0f : 0.0f;
-    points_.light.set(i, points_.light.at(i) + share * arriving.at(i));
+    const bool is_seen = (asked.lane[i] & ~hidden.lane[i]) != 0;
+    points_.light.choose(i, is_seen, points_.light.at(i) + arriving.at(i));
   }
 }
 

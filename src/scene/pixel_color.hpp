@@ -75,10 +75,10 @@ class PixelColors {
   std::uint64_t rays_ = 0;
   std::vector<Level> levels_;
   std::span<const Vector2f> light_points_;
-  // Of the block that is being shaded.
-  HitBlock hits_;
-  BlockMask is_hit_;
-  ShadingBlock points_;
+  // Of the block that is being shaded. Zeros at first, so that idle lanes compute with numbers.
+  HitBlock hits_{};
+  BlockMask is_hit_{};
+  ShadingBlock points_{};
 };
 
 }  // namespace raytracer

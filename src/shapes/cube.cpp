@@ -17,27 +17,43 @@ namespace {
 using shapes::Frame;
 using shapes::LocalRay;
 
-/// The face of the pair across `axis` through which a line with this direction comes (or goes).
-template <class Vector>
-std::uint32_t face_of(int axis, const Vector& direction, bool leaving) {
-  return static_cast<std::uint32_t>(2 * axis) + static_cast<std::uint32_t>((direction[axis] > 0) == leaving);
-}
-
 /// Chooses between the two ends of the line's stretch in the box.
-template <class T, class Vector>
-bool is_box_hit(const Ray3f& ray, const Vector& origin, const Vector& direction, const Vector& lower,
-                const Vector& upper, Hit& hit) {
-  T near, far;
-  int near_axis, far_axis;
-  if (!shapes::intersect_box(origin, direction, lower, upper, near, far, near_axis, far_axis)) return false;
-  if (shapes::is_on_ray(ray, static_cast<double>(near))) {
-    shapes::set_hit(hit, static_cast<double>(near), face_of(near_axis, direction, false));
-  } else if (shapes::is_on_ray(ray, static_cast<double>(far))) {
-    shapes::set_hit(hit, static_cast<double>(far), face_of(far_axis, direction, true));
+template <class T>
+bool is_box_hit(const Ray3f& ray, const shapes::BoxSpan<T>& span, Hit& hit) {
+  if (!(span.near <= span.far)) return false;
+  const double near = static_cast<double>(span.near), far = static_cast<double>(span.far);
+  if (shapes::is_on_ray(ray, near)) {
+    shapes::set_hit(hit, near, span.near_face);
+  } else if (shapes::is_on_ray(ray, far)) {
+    shapes::set_hit(hit, far, span.far_face);
   } else {
     return false;
   }
   return true;
+}
+
+/// The same for a packet; span_of(i) is the stretch of its ray i. Two loops, since a choice between what is
+/// dear to compute becomes a branch.
+template <class SpanOf>
+void find_box_hits(const RayPacket& rays, const SpanOf& span_of, HitPacket& hits) {
+  constexpr int kSize = RayPacket::kSize;
+  float near[kSize], far[kSize];
+  std::uint32_t near_face[kSize], far_face[kSize];
+  for (int i = 0; i < kSize; ++i) {
+    const auto span = span_of(i);
+    const bool crosses = span.near <= span.far;
+    near[i] = crosses ? static_cast<float>(span.near) : kInfinity;
+    far[i] = crosses ? static_cast<float>(span.far) : kInfinity;
+    near_face[i] = span.near_face;
+    far_face[i] = span.far_face;
+  }
+  for (int i = 0; i < kSize; ++i) {
+    const bool is_near = (near[i] > rays.t_min[i]) & (near[i] < rays.t_max[i]);
+    const bool is_far = (far[i] > rays.t_min[i]) & (far[i] < rays.t_max[i]);
+    hits.t[i] = is_near ? near[i] : is_far ? far[i] : kInfinity;
+    hits.primitive[i] = is_near ? near_face[i] : far_face[i];
+    hits.u[i] = hits.v[i] = 0;
+  }
 }
 
 /// uv of a point of the cube from -1 to 1: u to the right and v upwards for one who looks at the face from
@@ -68,10 +84,23 @@ Vector2f cube_uv(std::uint32_t face, const Vector3d& p) {
   return 0.5f * Vector2f(glm::dot(axes.u, p), glm::dot(axes.v, p)) + 0.5f;
 }
 
-Vector3d face_normal(std::uint32_t face) {
-  Vector3d normal(0.0);
-  normal[static_cast<int>(face / 2)] = face % 2 == 0 ? -1 : 1;
-  return normal;
+// These two without branches, for blocks of points.
+inline Vector3d face_normal(std::uint32_t face) {
+  const auto along = [face](std::uint32_t lower) {
+    return face == lower ? -1.0 : face == lower + 1 ? 1.0 : 0.0;
+  };
+  return {along(0), along(2), along(4)};
+}
+
+/// The point of the box that a place about there is, exactly on that face.
+inline Vector3d put_on_face(const Vector3d& place, std::uint32_t face, const Vector3d& lower,
+                            const Vector3d& upper) {
+  const auto put = [face](double x, double low, double high, std::uint32_t lower_face) {
+    const double above = x < low ? low : x, within = above > high ? high : above;
+    return face == lower_face ? low : face == lower_face + 1 ? high : within;
+  };
+  return {put(place.x, lower.x, upper.x, 0), put(place.y, lower.y, upper.y, 2),
+          put(place.z, lower.z, upper.z, 4)};
 }
 
 /// A cube with its edges along the axes of the world. Its faces lie at floats, so that a ray on a face is
@@ -86,11 +115,31 @@ class AlignedCube final : public Shape {
   Box3f bounds() const override { return bounds_; }
 
   bool is_hit(const Ray3f& ray, Hit& hit) const override {
-    return is_box_hit<float>(ray, ray.origin, ray.direction, lower_, upper_, hit);
+    return is_box_hit(ray, span_along(ray.origin, ray.direction), hit);
+  }
+
+  void find_hits(const RayPacket& rays, HitPacket& hits) const override {
+    const AlignedCube cube = *this;  // that no store can change it
+    find_box_hits(
+        rays, [&](int i) { return cube.span_along(rays.origin(i), rays.direction(i)); }, hits);
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
     return shapes::rounded_surface(point_at(ray, hit), face_normal(hit.primitive), {});
+  }
+
+  void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                   SurfaceBlock& surfaces) const override {
+    const AlignedCube cube = *this;  // that no store can change it
+    shapes::round_lanes(
+        asked,
+        [&](int i) {
+          return shapes::ExactPoint{
+              cube.point_at(rays.origin(i), rays.direction(i), hits.t[i], hits.primitive[i]),
+              face_normal(hits.primitive[i]),
+              {}};
+        },
+        surfaces);
   }
 
   SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
@@ -127,13 +176,16 @@ class AlignedCube final : public Shape {
   }
 
  private:
+  shapes::BoxSpan<float> span_along(const Vector3f& origin, const Vector3f& direction) const {
+    return shapes::intersect_box<float>(origin, direction, lower_, upper_);
+  }
+
+  Vector3d point_at(const Vector3f& origin, const Vector3f& direction, float t, std::uint32_t face) const {
+    const Vector3d place = Vector3d(origin) + static_cast<double>(t) * Vector3d(direction);
+    return put_on_face(place, face, Vector3d(lower_), Vector3d(upper_));
+  }
   Vector3d point_at(const Ray3f& ray, const Hit& hit) const {
-    const Vector3d lower(lower_), upper(upper_);
-    Vector3d point = Vector3d(ray.origin) + static_cast<double>(hit.t) * Vector3d(ray.direction);
-    point = glm::clamp(point, lower, upper);
-    const int axis = static_cast<int>(hit.primitive / 2);
-    point[axis] = hit.primitive % 2 == 0 ? lower[axis] : upper[axis];
-    return point;
+    return point_at(ray.origin, ray.direction, hit.t, hit.primitive);
   }
 
   shapes::Parallelogram parallelogram(std::uint32_t face) const {
@@ -159,13 +211,28 @@ class FramedCube final : public Shape {
 
   Box3f bounds() const override { return bounds_; }
 
-  bool is_hit(const Ray3f& ray, Hit& hit) const override {
-    const LocalRay local = frame_.to_local(ray);
-    return is_box_hit<double>(ray, local.origin, local.direction, Vector3d(-1.0), Vector3d(1.0), hit);
+  bool is_hit(const Ray3f& ray, Hit& hit) const override { return is_box_hit(ray, span_along(ray), hit); }
+
+  void find_hits(const RayPacket& rays, HitPacket& hits) const override {
+    const FramedCube cube = *this;  // that no store can change it
+    find_box_hits(
+        rays, [&](int i) { return cube.span_along(rays.ray(i)); }, hits);
   }
 
   SurfacePoint surface_at(const Ray3f& ray, const Hit& hit) const override {
     return surface_of(local_point(ray, hit), hit.primitive);
+  }
+
+  void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
+                   SurfaceBlock& surfaces) const override {
+    const FramedCube cube = *this;  // that no store can change it
+    shapes::round_lanes(
+        asked,
+        [&](int i) {
+          const std::uint32_t face = hits.primitive[i];
+          return cube.exact_of(cube.local_point(rays.ray(i), hits.t[i], face), face);
+        },
+        surfaces);
   }
 
   SurfaceDetail detail_at(const Ray3f& ray, const Hit& hit) const override {
@@ -196,24 +263,28 @@ class FramedCube final : public Shape {
   }
 
  private:
+  shapes::BoxSpan<double> span_along(const Ray3f& ray) const {
+    const LocalRay local = frame_.to_local(ray);
+    return shapes::intersect_box<double>(local.origin, local.direction, Vector3d(-1.0), Vector3d(1.0));
+  }
+
   static Vector3d local_of(std::uint32_t face, const glm::dvec2& signed_uv) {
     const FaceAxes axes = face_axes(face);
     return face_normal(face) + signed_uv.x * axes.u + signed_uv.y * axes.v;
   }
 
-  static Vector3d clamped_to_face(Vector3d point, std::uint32_t face) {
-    point = glm::clamp(point, Vector3d(-1.0), Vector3d(1.0));
-    const int axis = static_cast<int>(face / 2);
-    point[axis] = face % 2 == 0 ? -1 : 1;
-    return point;
+  Vector3d local_point(const Ray3f& ray, float t, std::uint32_t face) const {
+    return put_on_face(frame_.to_local(ray).at(static_cast<double>(t)), face, Vector3d(-1.0), Vector3d(1.0));
   }
-
   Vector3d local_point(const Ray3f& ray, const Hit& hit) const {
-    return clamped_to_face(frame_.to_local(ray).at(static_cast<double>(hit.t)), hit.primitive);
+    return local_point(ray, hit.t, hit.primitive);
   }
 
+  shapes::ExactPoint exact_of(const Vector3d& point, std::uint32_t face) const {
+    return frame_.exact_at(point, face_normal(face), 0, Vector3d(bounds_.diagonal()));
+  }
   SurfacePoint surface_of(const Vector3d& point, std::uint32_t face) const {
-    return frame_.surface_at(point, face_normal(face), 0, Vector3d(bounds_.diagonal()));
+    return shapes::rounded_surface(exact_of(point, face));
   }
 
   shapes::Parallelogram parallelogram(std::uint32_t face) const {

@@ -50,9 +50,37 @@ class Frame {
   /// The point of the surface at the local `point` with the local unit normal `normal` (outwards stays
   /// outwards, also where the frame mirrors). `curvature` is the largest curvature of the surface there and
   /// `extent` the size of the shape in the world, see SurfaceBound. `amplification` is how much more than the
-  /// rounding of a number about 1 the shape's own arithmetic is off, across the surface.
+  /// rounding of a number about 1 the shape's own arithmetic is off, across the surface. Without branches,
+  /// for blocks of points.
+  ExactPoint exact_at(const Vector3d& point, const Vector3d& normal, double curvature, const Vector3d& extent,
+                      double amplification = 1) const {
+    // The gradient of a function of the local point, seen from the world: its length turns local heights
+    // above the surface into heights in the world.
+    const Vector3d gradient = glm::transpose(to_local_) * normal;
+    const double steepness = std::sqrt(glm::dot(gradient, gradient));
+    const Vector3d position = to_world(point);
+
+    // Position and ray origin are rounded one after the other, each by half a unit in the last place per
+    // coordinate.
+    const Vector3d rounding = 2 * kFloatRounding * glm::abs(position);
+    const Vector3d local_rounding = absolute_to_local_ * rounding;
+    const double bend = 0.5 * curvature * glm::dot(local_rounding, local_rounding) / steepness,
+                 most_bend = std::sqrt(glm::dot(rounding, rounding));
+    SurfaceBound bound;
+    bound.bend = most_bend < bend ? most_bend : bend;
+    // Some thirty operations on numbers about 1, and the round trip through two matrices; the translation is
+    // taken off before the matrix but rounds by its own magnitude.
+    constexpr double kOperations = 32;
+    const Vector3d shift = absolute_to_local_ * (glm::abs(position) + glm::abs(translation_));
+    bound.arithmetic = kOperations * kDoubleRounding *
+                       (amplification + glm::dot(glm::abs(normal), round_trip_ + 0.125 * shift)) / steepness;
+    bound.extent = extent;
+    return {position, gradient / steepness, bound};
+  }
   SurfacePoint surface_at(const Vector3d& point, const Vector3d& normal, double curvature,
-                          const Vector3d& extent, double amplification = 1) const;
+                          const Vector3d& extent, double amplification = 1) const {
+    return rounded_surface(exact_at(point, normal, curvature, extent, amplification));
+  }
 
  private:
   glm::dmat3 to_world_;

@@ -270,4 +270,28 @@ TEST_CASE("colours of many rays are those of each, and the rays are counted alik
   REQUIRE(tracer.rays() == expected_rays);
 }
 
+TEST_CASE("a light too bright for any number does nothing where it is hidden") {
+  SceneDescription description;
+  description.shapes.push_back(make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
+  description.shapes.push_back(make_quad({-1, 4e-6, 1}, {2, 0, 0}, {0, 0, -2}));
+  description.material_of = {0, 0};
+  description.materials.resize(1);
+  Light light;
+  light.falloff = Falloff::kQuadratic;
+  light.position = {0, 8e-6F, 0};
+  light.lambda = Color3f(1e32F);
+  description.lights = {light};
+  description.ambient = Color3f(0.5F);
+  const Scene scene(std::move(description));
+  std::vector<RayBlock> rays(1);
+  std::vector<ColorBlock> colors(1);
+  for (int i = 0; i < kBlockSize; ++i) {
+    rays[0].set(i, {{1e-7F * static_cast<float>(i), 2e-6F, 0}, {0, -1, 0}});
+  }
+  PixelColors(scene).trace({rays, kBlockSize}, 0, colors);
+  for (int i = 0; i < kBlockSize; ++i) {
+    REQUIRE(is_same(colors[0].at(i), Color3f(255 * 0.5F * 0.8F)));
+  }
+}
+
 }  // namespace
