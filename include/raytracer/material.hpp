@@ -16,10 +16,13 @@ struct ConductorIndex {
 
 /// Textures that stand in for a material's values of the same name; null: the value itself counts.
 struct MaterialTextures {
-  TexturePointer color, shininess, roughness, metallic, specular, transmission, emission, coat,
-      coat_roughness, anisotropy, alpha;
+  TexturePointer color, shininess, roughness, metallic, ior, specular, transmission, attenuation_color,
+      attenuation_distance, emission, coat, coat_roughness, anisotropy, alpha;
+  TexturePointer eta, k;      ///< of the conductor
   TexturePointer normal_map;  ///< tangent space: linear r, g, b in 0..1 for x, y, z in -1..1
   TexturePointer bump;        ///< a height along the normal, in scene units
+
+  bool operator==(const MaterialTextures&) const = default;
 };
 
 /// What a material is at one point. Data alone. The paper's two words first; the rest means what glTF 2.0's
@@ -32,7 +35,10 @@ struct MaterialValues {
   bool has_layer = false;
   float roughness = 0.3f;  ///< alpha of GGX is its square
   float metallic = 0;
-  float ior = 1.5f;      ///< of the layer, and of the inside where light is let in
+  /// Of the layer, and of the inside where light is let in. A body whose values differ from place to place
+  /// has throughout, for light on its way, those of the place where that came in; so have the two
+  /// attenuations.
+  float ior = 1.5f;
   float specular = 1;    ///< strength of the dielectric reflection
   float anisotropy = 0;  ///< -1..1: roughness grows across (> 0: highlights along) the surface's u direction
   std::optional<ConductorIndex> conductor;  ///< a measured metal; `color` then tints its reflection

@@ -107,6 +107,7 @@ struct Footprint {
   /// of it, and none of it twice.
   Vector3f aside{0};
   bool is_coarse = false;  ///< few rays share the pixel that is averaged
+  bool is_rough = false;   ///< as TexturePoint has it
 };
 
 /// Immutable: any number of threads may ask it at once.

@@ -17,6 +17,9 @@ struct TexturePoint {
   /// Few samples share the pixel, and the footprint is what one of them stands for: no other look will make
   /// up for a bad average.
   bool is_coarse = false;
+  /// The light goes on to where a matt surface or a blurred mirror adds it up with much else: whatever is
+  /// seen at one place of about this size will do. Never together with is_coarse.
+  bool is_rough = false;
 };
 
 /// A function over surfaces. Immutable; any number of threads may ask it at once.

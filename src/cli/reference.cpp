@@ -76,6 +76,7 @@ std::string call_of(const scene_file::FunctionRow& function) {
 
 std::string value_of(const PropertyRow& row) {
   std::string words = scene_file::describe_type(row);
+  if (row.store_texture != nullptr && !row.is_texture_only) words += " or a texture";
   if (!row.unit.empty()) words += fmt::format(" ({})", row.unit);
   // What can't be reached by anybody's numbers needs no words.
   const bool is_limited = row.range.least != scene_file::kAnyNumber.least || row.range.most < 1e12;

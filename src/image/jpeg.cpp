@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <csetjmp>
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "image/orientation.hpp"
 #include "image/readers.hpp"
 #include "raytracer/error.hpp"
 
@@ -18,6 +21,8 @@ namespace {
 
 // A file with many scans over few bytes takes for ever; no writer makes as many.
 constexpr int kMostScans = 200;
+
+constexpr int kExifMarker = JPEG_APP0 + 1;
 
 /// libjpeg's errors, which leave by longjmp as libpng's do.
 struct JpegErrors {
@@ -64,6 +69,7 @@ class JpegReader {
     jpeg_create_decompress(&jpeg_);
     progress_.progress_monitor = limit_scans;
     jpeg_.progress = &progress_;
+    jpeg_save_markers(&jpeg_, kExifMarker, 0xFFFF);
     jpeg_mem_src(&jpeg_, file.data(), static_cast<unsigned long>(file.size()));
     jpeg_read_header(&jpeg_, TRUE);
     if (jpeg_.jpeg_color_space == JCS_YCCK) jpeg_.out_color_space = JCS_CMYK;
@@ -81,6 +87,18 @@ class JpegReader {
     }
     jpeg_finish_decompress(&jpeg_);
     return true;
+  }
+
+  /// How a camera was held that wrote the file; known between the two.
+  Orientation orientation() const {
+    constexpr std::string_view kName("Exif\0\0", 6);
+    for (const jpeg_saved_marker_ptr* next = &jpeg_.marker_list; *next != nullptr; next = &(*next)->next) {
+      const jpeg_marker_struct& marker = **next;
+      const std::string_view text(reinterpret_cast<const char*>(marker.data), marker.data_length);
+      if (marker.marker != kExifMarker || !text.starts_with(kName)) continue;
+      return exif_orientation(ByteSpan(marker.data, marker.data_length).subspan(kName.size()));
+    }
+    return {};
   }
 
   const jpeg_decompress_struct& jpeg() const { return jpeg_; }
@@ -116,9 +134,10 @@ Picture read_jpeg(ByteSpan file) {
   check_plausible(std::size_t{jpeg.output_width} * jpeg.output_height * channels, file.size());
   Picture picture(static_cast<int>(jpeg.output_width), static_cast<int>(jpeg.output_height),
                   jpeg.output_components, TexelType::kByte, PictureCurve::kSrgb);
+  const Orientation orientation = reader.orientation();
   if (!reader.read_pixels(picture.row(0), picture.row_bytes())) throw reader.problem();
-  if (jpeg.out_color_space == JCS_CMYK) return rgb_from_cmyk(picture, jpeg.saw_Adobe_marker != 0);
-  if (picture.channels == 1 || picture.channels == 3) return picture;
+  if (jpeg.out_color_space == JCS_CMYK) picture = rgb_from_cmyk(picture, jpeg.saw_Adobe_marker != 0);
+  if (picture.channels == 1 || picture.channels == 3) return turned(std::move(picture), orientation);
   throw Error(ErrorKind::kScene, fmt::format("the JPEG has {} channels, which are no colours", channels));
 }
 

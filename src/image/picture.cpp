@@ -61,7 +61,7 @@ float stored_value(const Picture& picture, const std::uint8_t* texel, int channe
     case TexelType::kFloat:
       return load<float>(texel + 4 * c);
     case TexelType::kRgbe:
-      return rgb_from_rgbe(texel)[channel];
+      return rgb_from_rgbe(texel)[channel] * picture.scale[channel];
   }
   return 0;
 }
@@ -105,7 +105,7 @@ void decode_row(const Picture& picture, const LightOf& light, int y, float* rgb)
   const std::size_t step = picture.texel_bytes();
   if (picture.type == TexelType::kRgbe && picture.curve == PictureCurve::kLinear) {
     for (int x = 0; x < picture.width; ++x, texel += step, rgb += 3) {
-      const Vector3f value = rgb_from_rgbe(texel);
+      const Vector3f value = rgb_from_rgbe(texel) * picture.scale;
       for (int c = 0; c < 3; ++c) rgb[c] = value[c];
     }
     return;

@@ -30,13 +30,13 @@ inline constexpr std::size_t kLargestTexels = std::size_t{1} << 28U;
 
 /// Rows from the top left, channels interleaved: grey, grey and alpha, RGB, or RGB and alpha. Colours are as
 /// the file has them (PNG: not multiplied with alpha; EXR: multiplied). Rec.709 primaries are assumed.
-/// What a file says about its orientation (EXIF) is not followed, as glTF 2.0 has it.
 struct Picture {
   int width = 0, height = 0;
   int channels = 0;  ///< 1..4; of kRgbe 3
   TexelType type = TexelType::kByte;
   PictureCurve curve = PictureCurve::kSrgb;
   float exponent = 1;                    ///< of kPower
+  Color3f scale{1};                      ///< of kRgbe: times the stored values
   std::unique_ptr<std::uint8_t[]> data;  ///< in the machine's byte order
 
   Picture() = default;

@@ -10,6 +10,7 @@
 
 #include "core/parallel.hpp"
 #include "core/printable.hpp"
+#include "image/orientation.hpp"
 #include "image/readers.hpp"
 #include "raytracer/error.hpp"
 
@@ -42,7 +43,7 @@ class HeadLines {
 
 /// The line "-Y 100 +X 200": the slow axis first; -Y is from the top down.
 struct Resolution {
-  bool is_x_first = false, is_y_down = true, is_x_right = true;
+  Orientation orientation;
   int slow = 0, fast = 0;  // how many scanlines, and how many pixels in each
 };
 
@@ -66,20 +67,50 @@ Resolution parse_resolution(std::string_view line) {
   take_axis(slow, is_slow_positive, result.slow);
   take_axis(fast, is_fast_positive, result.fast);
   if (slow == fast) throw problem;
-  result.is_x_first = slow == 'X';
-  result.is_x_right = result.is_x_first ? is_slow_positive : is_fast_positive;
-  result.is_y_down = !(result.is_x_first ? is_fast_positive : is_slow_positive);
+  const bool is_x_first = slow == 'X';
+  result.orientation = {is_x_first, !(is_x_first ? is_slow_positive : is_fast_positive),
+                        is_x_first ? is_fast_positive : is_slow_positive};
   return result;
 }
 
-Resolution read_head(HeadLines& lines) {
+// Divides by what the pixels have been multiplied with: one number for all channels, or three. The values of
+// several lines come together.
+void undo(std::string_view line, int count, Vector3d& scale) {
+  std::string_view values = line.substr(line.find('=') + 1);
+  Vector3d factors(0);
+  for (int c = 0; c < count; ++c) {
+    while (values.starts_with(' ') || values.starts_with('\t')) values.remove_prefix(1);
+    const auto [end, error] = std::from_chars(values.data(), values.data() + values.size(), factors[c]);
+    if (error != std::errc()) break;
+    values.remove_prefix(static_cast<std::size_t>(end - values.data()));
+  }
+  if (count == 1) factors = Vector3d(factors.x);
+  for (int c = 0; c < 3; ++c) {
+    scale[c] /= factors[c];
+    constexpr double kLeast = 1e-30, kMost = 1e30;
+    if (scale[c] >= kLeast && scale[c] <= kMost) continue;  // not what is no number
+    throw broken(fmt::format("'{}' makes no sense", printable(line.substr(0, 60))));
+  }
+}
+
+struct Head {
+  Resolution resolution;
+  Vector3d scale{1};
+};
+
+// Of the other lines PIXASPECT, VIEW and the like do not matter: a texture lies on u and v, a sky all around.
+Head read_head(HeadLines& lines) {
+  Head head;
   for (std::string_view line = lines.next(); !line.empty(); line = lines.next()) {
+    if (line.starts_with("EXPOSURE=")) undo(line, 1, head.scale);
+    if (line.starts_with("COLORCORR=")) undo(line, 3, head.scale);
     if (!line.starts_with("FORMAT=") || line == "FORMAT=32-bit_rle_rgbe") continue;
     throw Error(ErrorKind::kScene,
                 fmt::format("the Radiance HDR's pixels are in {}; only 32-bit_rle_rgbe can be read",
                             printable(line.substr(7, 40))));
   }
-  return parse_resolution(lines.next());
+  head.resolution = parse_resolution(lines.next());
+  return head;
 }
 
 /// Scanlines of both kinds: the older, pixels with a sign for repeating the one before, and the newer, each
@@ -191,30 +222,12 @@ class Scanlines {
   int row_ = 0;
 };
 
-// Scanlines as they stand in the file, turned to rows from the top left.
-Picture turned(Picture scanlines, const Resolution& resolution) {
-  if (!resolution.is_x_first && resolution.is_y_down && resolution.is_x_right) return scanlines;
-  const int width = resolution.is_x_first ? resolution.slow : resolution.fast;
-  const int height = resolution.is_x_first ? resolution.fast : resolution.slow;
-  Picture picture(width, height, 3, TexelType::kRgbe, PictureCurve::kLinear);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const int from_x = resolution.is_x_right ? x : width - 1 - x;
-      const int from_y = resolution.is_y_down ? y : height - 1 - y;
-      const int row = resolution.is_x_first ? from_x : from_y,
-                column = resolution.is_x_first ? from_y : from_x;
-      std::memcpy(picture.row(y) + 4 * static_cast<std::size_t>(x),
-                  scanlines.row(row) + 4 * static_cast<std::size_t>(column), 4);
-    }
-  }
-  return picture;
-}
-
 }  // namespace
 
 Picture read_radiance(ByteSpan file) {
   HeadLines lines(file);
-  const Resolution resolution = read_head(lines);
+  const Head head = read_head(lines);
+  const Resolution& resolution = head.resolution;
   const ByteSpan bytes = file.subspan(lines.position());
   check_size(resolution.fast, resolution.slow);
   check_plausible(
@@ -222,7 +235,8 @@ Picture read_radiance(ByteSpan file) {
       file.size());
   Picture scanlines(resolution.fast, resolution.slow, 3, TexelType::kRgbe, PictureCurve::kLinear);
   Scanlines(bytes, scanlines).read();
-  return turned(std::move(scanlines), resolution);
+  scanlines.scale = Color3f(head.scale);
+  return turned(std::move(scanlines), resolution.orientation);
 }
 
 }  // namespace raytracer

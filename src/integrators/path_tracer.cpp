@@ -7,7 +7,6 @@
 
 #include "core/hash.hpp"
 #include "integrators/weights.hpp"
-#include "materials/absorption.hpp"
 #include "scene/any_material.hpp"
 #include "shapes/hit_block.hpp"
 
@@ -30,9 +29,6 @@ constexpr std::array<bool, kPairsPerBounce> kAreCompanions = {true, false, true,
 // time.
 constexpr int kFirstRoulette = 3;
 constexpr float kWeak = 0.25F, kWeakNearGlass = 0.1F;
-
-// How wide at least the cone of rays is that a surface has scattered.
-constexpr float kScatteredSpread = 0.1F;
 
 float largest(const Color3f& c) { return std::max({c.x, c.y, c.z}); }
 
@@ -71,6 +67,14 @@ bool leaves(const Scene& scene, const Ray3f& ray, const Hit& hit) {
   return scene.surface_at(ray, hit);
 }
 
+// The inside of what the ray meets, with the values there.
+Medium medium_at(const Scene& scene, const Ray3f& ray, const Hit& hit) {
+  const Material& material = scene.material_of(hit);
+  if (!varies(scene, material)) return {material, material};
+  SurfacePoint surface = scene.surface_at(ray, hit);
+  return {material, scene.textured(ray, hit, {}, surface)};
+}
+
 }  // namespace
 
 // --- where the eye is
@@ -87,11 +91,11 @@ Media media_at(const Scene& scene, const Vector3f& position) {
     const Material* material = &scene.material_of(hit);
     if (has_inside(*material)) {
       if (!leaves(scene, ray, hit)) {
-        met.enter(material);
+        met.enter({*material, *material});
       } else if (met.innermost() != nullptr) {
-        met.leave(met.innermost());
+        met.leave(met.innermost()->material);
       } else {
-        media.surround(material);
+        media.surround(medium_at(scene, ray, hit));
       }
     }
     ray.t_min = std::nextafter(hit.t, kInfinity);
@@ -136,7 +140,7 @@ struct PathTracer::Vertex {
   void cross(const Vector3f& direction, Media& media) const {
     if (!has_inside(material)) return;
     if (glm::dot(direction, surface.normal) < 0) {
-      media.enter(&material);
+      media.enter({material, *resolved});
     } else {
       media.leave(&material);
     }
@@ -286,7 +290,6 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
   }
   if (!cones_.empty()) {
     cones_[index] = cones_[index].at(hit.t * glm::length(path.ray.direction));
-    cones_[index].spread = std::max(cones_[index].spread, kScatteredSpread);
   }
   const auto lane = static_cast<int>(matt_.count);
   matt_.add(index, surface, path.ray.direction);
@@ -327,6 +330,7 @@ void PathTracer::shade_matt(int depth) {
     path.from = position;
     path.from_normal = matt_.side[i] * matt_.normal.at(i);
     path.ray = {position + matt_.side[i] * matt_.offset[i] * matt_.normal.at(i), direction};
+    if (!cones_.empty() && path.pdf > 0) cones_[index].scatter(path.pdf);
     const float survival = path.pdf > 0 ? roulette(path, depth, chance_points_[index].x) : 0.0F;
     path.throughput *= survival;
     is_hit_[index] = survival > 0 ? 1 : 0;
@@ -358,7 +362,7 @@ bool PathTracer::shade_any(Path& path, const Material& material, const SurfacePo
   }
   const Media* const media = has_media_ ? &media_of_[index] : nullptr;
   if (media != nullptr && media->innermost() != nullptr) {
-    path.throughput *= glm::exp(-distance * absorption_of(*media->innermost()));
+    path.throughput *= glm::exp(-distance * media->innermost()->absorption);
   }
   if (media != nullptr && !is_outside && media->is_covered(&material)) {
     media_of_[index].leave(&material);
@@ -366,11 +370,12 @@ bool PathTracer::shade_any(Path& path, const Material& material, const SurfacePo
     return true;
   }
   std::optional<MaterialValues> textured;
-  if (material.textures != nullptr || scene_.has_vertex_colors()) {
+  if (varies(scene_, material)) {
     // Light that could have been chosen is seen as it would have been: sharp.
     const bool is_sharp = path.pdf > 0 && material.is_emissive();
     const Footprint footprint = is_sharp ? Footprint{} : cone.footprint_at(distance);
     textured = scene_.textured(path.ray, hit, footprint, vertex.surface);
+    if (media != nullptr && !is_outside) textured->ior = media->ior_of(&material, textured->ior);
     vertex.resolved = &*textured;
   }
   if (vertex.resolved->is_emissive()) add_emission(path, vertex, depth);
@@ -389,7 +394,7 @@ bool PathTracer::shade_any(Path& path, const Material& material, const SurfacePo
   frame.geometric_normal = vertex.surface.normal;
   frame.normal = is_outside ? shading : -shading;
   if (material.anisotropy != 0) frame.tangent = scene_.detail_at(path.ray, hit).along_u;
-  frame.ior_inside = material.ior;
+  frame.ior_inside = vertex.resolved->ior;
   if (media != nullptr) {
     const bool is_leaving = has_inside(material) && !is_outside;
     frame.ior_outside = is_leaving ? media->ior_without(&material) : media->ior();
@@ -474,8 +479,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   path.from = vertex.surface.position;
   path.from_normal = vertex.light_side;
   path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
-  if (!sample.is_delta && !cones_.empty())
-    cones_[index].spread = std::max(cones_[index].spread, kScatteredSpread);
+  if (!sample.is_delta && !cones_.empty()) cones_[index].scatter(sample.pdf);
   if (sample.is_transmission && has_inside(vertex.material)) {
     Media& media = media_of_[index];
     const float before = media.ior();

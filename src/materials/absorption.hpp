@@ -1,6 +1,7 @@
 // What a medium takes from light on its way through.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "raytracer/material.hpp"
@@ -10,7 +11,7 @@ namespace raytracer {
 /// The share that is lost per scene unit, sigma of exp(-sigma distance) (Beer and Lambert), such that white
 /// light is attenuation_color after attenuation_distance. A channel of 0 loses all but 1e-6 by then; whatever
 /// the values, it is finite and not negative.
-inline Color3f absorption_of(const Material& material) {
+inline Color3f absorption_of(const MaterialValues& material) {
   constexpr float kGreatest = 1e30F;
   const float distance = material.attenuation_distance;
   Color3f sigma{0};

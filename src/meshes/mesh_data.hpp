@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,7 @@ struct MeshData {
     float roughness = -1;                 ///< Pr; below 0: not said
     float metallic = 0;                   ///< Pm
     int illumination = -1;                ///< illum; below 0: not said
+    std::optional<float> bump_scale;      ///< -bm of map_bump or bump
     std::array<std::string, kMaps> maps;  ///< as written, relative to the MTL file's folder; empty: none
     std::string folder;                   ///< of the MTL file
 

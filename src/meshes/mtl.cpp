@@ -48,7 +48,8 @@ constexpr MapOption kMapOptions[] = {
     {"-cc", 1, false},     {"-halo", 0, false},   {"-colorspace", 1, false},
 };
 
-void skip_map_options(Cursor& c) {
+// `bump_scale` becomes what -bm says.
+void skip_map_options(Cursor& c, std::optional<float>* bump_scale = nullptr) {
   while (true) {
     skip_obj_blanks(c);
     const std::string_view word = peek_word(c);
@@ -63,13 +64,16 @@ void skip_map_options(Cursor& c) {
         read_word(c);
       } else if (!read_number(c, number)) {
         break;
+      } else if (option->name == "-bm" && bump_scale != nullptr &&
+                 std::isfinite(static_cast<float>(number))) {
+        *bump_scale = static_cast<float>(number);
       }
     }
   }
 }
 
-std::string read_map(Cursor& c) {
-  skip_map_options(c);
+std::string read_map(Cursor& c, std::optional<float>* bump_scale = nullptr) {
+  skip_map_options(c, bump_scale);
   std::string name(read_rest(c));
   std::replace(name.begin(), name.end(), '\\', '/');  // as Windows writes folders
   return name;
@@ -89,6 +93,10 @@ void color(Cursor& c, Material& material) {
 template <Material::Map kMap>
 void map(Cursor& c, Material& material) {
   material.maps[static_cast<std::size_t>(kMap)] = read_map(c);
+}
+void bump(Cursor& c, Material& material) {
+  material.bump_scale.reset();
+  material.maps[static_cast<std::size_t>(Material::Map::kBump)] = read_map(c, &material.bump_scale);
 }
 void dissolve(Cursor& c, Material& material) {
   skip_map_options(c);
@@ -123,9 +131,9 @@ const std::map<std::string_view, Read>& statements() {
       {"map_d", map<Material::Map::kAlpha>},
       {"norm", map<Material::Map::kNormal>},
       {"map_Kn", map<Material::Map::kNormal>},
-      {"bump", map<Material::Map::kBump>},
-      {"map_bump", map<Material::Map::kBump>},
-      {"map_Bump", map<Material::Map::kBump>},
+      {"bump", bump},
+      {"map_bump", bump},
+      {"map_Bump", bump},
   };
   return kStatements;
 }

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "lights/illuminate.hpp"
-#include "materials/absorption.hpp"
 #include "materials/bsdf.hpp"
 #include "materials/fresnel.hpp"
 #include "sampling/sobol.hpp"
@@ -129,13 +128,14 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
   if (own.is_area_light && !own.is_visible && sight.is_camera) return look_behind(sight, hit);
   SurfacePoint point = scene_.surface_at(sight.ray, hit);
   std::optional<MaterialValues> textured;
-  if (own.textures != nullptr || (scene_.has_vertex_colors() && own.takes_vertex_colors)) {
+  const bool is_outside = glm::dot(point.normal, sight.ray.direction) < 0;
+  if (varies(scene_, own)) {
     textured = scene_.textured(sight.ray, hit, sight.cone.footprint_at(hit.t), point);
+    if (!is_outside) textured->ior = sight.media.ior_of(&own, textured->ior);
   }
   const MaterialValues& material = textured ? *textured : static_cast<const MaterialValues&>(own);
 
   const float length = glm::length(sight.ray.direction);
-  const bool is_outside = glm::dot(point.normal, sight.ray.direction) < 0;
   float before = sight.media.ior(), behind = material.ior;
   if (has_inside(own) && !is_outside) {
     before = material.ior;
@@ -177,8 +177,8 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
     seen.color = glm::mix(behind_it.color, seen.color, alpha);
     seen.emitted = glm::mix(behind_it.emitted, seen.emitted, alpha);
   }
-  if (const Material* medium = sight.media.innermost()) {
-    const Color3f left = glm::exp(-hit.t * length * absorption_of(*medium));
+  if (const Medium* medium = sight.media.innermost()) {
+    const Color3f left = glm::exp(-hit.t * length * medium->absorption);
     seen.color *= left;
     seen.emitted *= left;
   }
@@ -287,7 +287,7 @@ Color3f Recursion::look_on(const Sight& sight, const Surface& surface, const Sha
     if (has_inside(surface.own)) {
       direction = glm::refract(direction, point.shading_normal, surface.before / surface.behind);
       if (surface.is_outside) {
-        next.media.enter(&surface.own);
+        next.media.enter({surface.own, surface.material});
       } else {
         next.media.leave(&surface.own);
       }

@@ -1,6 +1,8 @@
 // A hit as the recursion shades it, and where rays go on from it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "raytracer/scene.hpp"
@@ -17,13 +19,31 @@ struct RayCone {
   Vector3f aside_origin{0}, aside_direction{0};
   RayDifferential edges{};
   bool is_coarse = false;  ///< few rays share the pixel
+  bool is_rough = false;   ///< it has been scattered widely
 
   Footprint footprint_at(float t) const {
-    return {width + t * spread, edges.origin_dx + t * edges.direction_dx,
-            edges.origin_dy + t * edges.direction_dy, aside_origin + t * aside_direction, is_coarse};
+    return {width + t * spread,
+            edges.origin_dx + t * edges.direction_dx,
+            edges.origin_dy + t * edges.direction_dy,
+            aside_origin + t * aside_direction,
+            is_coarse,
+            is_rough};
   }
   /// Of a ray that goes on from there.
-  RayCone at(float t) const { return {width + t * spread, spread}; }
+  RayCone at(float t) const {
+    RayCone next;
+    next.width = width + t * spread;
+    next.spread = spread;
+    next.is_rough = is_rough;
+    return next;
+  }
+  /// Likewise, of one whose direction was chosen with that density per steradian: it stands for about 1 /
+  /// pdf, shared by the many that are chosen there.
+  void scatter(float pdf) {
+    constexpr float kWidest = 0.1F, kShare = 0.055F, kRough = 0.04F;
+    spread = std::max(spread, std::min(kWidest, kShare / std::sqrt(pdf)));
+    is_rough = is_rough || spread > kRough;
+  }
 };
 
 struct ShadingPoint {
@@ -63,6 +83,11 @@ inline Ray3f reflected_ray(const Ray3f& ray, const ShadingPoint& point) {
   const float away = glm::dot(direction, point.normal);
   const float back = away < 0 ? 1.001f * away : 0.0f;
   return {point.offset_position, direction - back * point.normal};
+}
+
+/// Whether a hit on it needs Scene::textured().
+inline bool varies(const Scene& scene, const Material& material) {
+  return material.textures != nullptr || (scene.has_vertex_colors() && material.takes_vertex_colors);
 }
 
 /// With what the vertices of a mesh say.

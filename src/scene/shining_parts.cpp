@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "materials/absorption.hpp"
 #include "materials/fresnel.hpp"
 #include "materials/media.hpp"
+#include "scene/shading_point.hpp"
 #include "textures/material_at.hpp"
 
 namespace raytracer {
@@ -25,7 +26,7 @@ float density_scale(const glm::mat3& to_world, const Vector3f& from, const Vecto
 }
 
 // What a surface between a point and a light lets through, straight on.
-Color3f share_through(const Material& material, float cosine) {
+Color3f share_through(const MaterialValues& material, float cosine) {
   if (material.transmission == 0) return Color3f(0);
   const float reflected = material.specular * fresnel_dielectric(std::abs(cosine), material.ior).reflectance;
   return (1 - material.metallic) * material.transmission * (1 - reflected) * material.color;
@@ -134,19 +135,26 @@ Color3f share_passing(const Scene& scene, const Ray3f& shadow_ray, std::uint64_t
   Ray3f ray = shadow_ray;
   const float length = glm::length(ray.direction);
   float entered_at = -1;
+  Color3f absorption(0);
   for (int i = 0; i < kMostSurfaces; ++i) {
     ++rays;
     Hit hit;
     if (!scene.is_hit(ray, hit)) return share;
-    const Material& material = scene.material_of(hit);
-    if (!lets_light_pass(material)) return Color3f(0);
-    const SurfacePoint surface = scene.surface_at(ray, hit);
+    const Material& own = scene.material_of(hit);
+    if (!lets_light_pass(own)) return Color3f(0);
+    SurfacePoint surface = scene.surface_at(ray, hit);
+    std::optional<MaterialValues> textured;
+    if (varies(scene, own)) textured = scene.textured(ray, hit, Footprint{}, surface);
+    const MaterialValues& material = textured ? *textured : static_cast<const MaterialValues&>(own);
     const float cosine = glm::dot(surface.normal, ray.direction) / length;
     const float alpha = scene.alpha_at(ray, hit);
     share *= Color3f(1 - alpha) + alpha * share_through(material, cosine);
-    if (!material.thin && cosine < 0) entered_at = hit.t;
+    if (!material.thin && cosine < 0) {
+      entered_at = hit.t;
+      absorption = absorption_of(material);
+    }
     if (!material.thin && cosine > 0 && entered_at >= 0) {
-      share *= glm::exp(-(hit.t - entered_at) * length * absorption_of(material));
+      share *= glm::exp(-(hit.t - entered_at) * length * absorption);
       entered_at = -1;
     }
     if (share == Color3f(0)) return share;

@@ -38,6 +38,17 @@ void set_square(const Vector3f& direction, const Vector3f& normal, float width, 
   point.position_dy = onto_plane(direction, normal, width * glm::cross(direction, side));
 }
 
+// Of that width, its edges along u and v; false where the surface has none.
+bool set_rough(const SurfaceDetail& detail, float width, TexturePoint& point) {
+  const float uu = glm::dot(detail.along_u, detail.along_u), vv = glm::dot(detail.along_v, detail.along_v);
+  if (!(uu > 0) || !(vv > 0)) return false;
+  point.uv_dx.x = width / std::sqrt(uu);
+  point.uv_dy.y = width / std::sqrt(vv);
+  point.position_dx = point.uv_dx.x * detail.along_u;
+  point.position_dy = point.uv_dy.y * detail.along_v;
+  return true;
+}
+
 // To where the ray through ray.at(hit.t) + aside meets the surface's plane. Not farther than the footprint
 // reaches: over an edge, or beyond a horizon, there is nothing to ask.
 void move_to_middle(const Ray3f& ray, const SurfacePoint& surface, const SurfaceDetail& detail,
@@ -60,6 +71,8 @@ TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const 
   point.position = surface.position;
   point.normal = surface.shading_normal;
   if (!(footprint.width > 0)) return point;
+  point.is_rough = footprint.is_rough;
+  if (footprint.is_rough && set_rough(detail, footprint.width, point)) return point;
   const Vector3f direction = glm::normalize(ray.direction);
   if (footprint.dx == Vector3f(0) || footprint.dy == Vector3f(0)) {
     set_square(direction, surface.normal, footprint.width, point);

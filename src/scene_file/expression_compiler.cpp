@@ -71,7 +71,7 @@ class Compiler {
   std::optional<Operand> compile_constant(const Expression& e);
   ValueType checked_type(const Expression& e, std::span<const Operand> arguments);
   Operand emit_operation(const Expression& e, std::span<const Operand> arguments, ValueType type);
-  std::optional<Operand> emit_multiply_add(const Operand& a, const Operand& b);
+  std::optional<Operand> emit_multiply_add(Operation operation, const Operand& a, const Operand& b);
   Operand emit_arithmetic(Operation operation, const Operand& a, const Operand& b, ValueType type);
   Operand emit_comparison(Operation operation, const Operand& a, const Operand& b);
   Operand emit_choice(std::span<const Operand> arguments, ValueType type);
@@ -254,20 +254,24 @@ Operand Compiler::emit_operation(const Expression& e, std::span<const Operand> a
   }
 }
 
-// A product that has just been computed, and is needed for nothing else, is added in the same step.
-std::optional<Operand> Compiler::emit_multiply_add(const Operand& a, const Operand& b) {
+// A product that has just been computed, and is needed for nothing else, is added, or subtracted, in the same
+// step.
+std::optional<Operand> Compiler::emit_multiply_add(Operation operation, const Operand& a, const Operand& b) {
   if (steps_.empty() || steps_.back().step != Step::kMultiply) return std::nullopt;
   const WideStep product = steps_.back();
   const bool is_first = a.constant == nullptr && product.to == a.place;
   const bool is_second = b.constant == nullptr && product.to == b.place;
-  if (is_first == is_second) return std::nullopt;
+  const bool is_sum = operation == Operation::kAdd;
+  if (is_first == is_second || (is_first && !is_sum)) return std::nullopt;
   steps_.pop_back();
-  return number(Step::kMultiplyAdd, product.a, product.b, place_of(is_first ? b : a));
+  return number(is_sum ? Step::kMultiplyAdd : Step::kMultiplySubtract, product.a, product.b,
+                place_of(is_first ? b : a));
 }
 
 Operand Compiler::emit_arithmetic(Operation operation, const Operand& a, const Operand& b, ValueType type) {
-  if (operation == Operation::kAdd && type == ValueType::kNumber) {
-    if (const std::optional<Operand> sum = emit_multiply_add(a, b)) return *sum;
+  const bool is_sum = operation == Operation::kAdd || operation == Operation::kSubtract;
+  if (is_sum && type == ValueType::kNumber) {
+    if (const std::optional<Operand> sum = emit_multiply_add(operation, a, b)) return *sum;
   }
   const Operand both[] = {a, b};
   const bool are_vectors = a.is_vector() && b.is_vector();

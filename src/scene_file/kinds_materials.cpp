@@ -17,6 +17,12 @@ constexpr Range kIndexOfRefraction{1, 10, false};
 constexpr Range kMetalIndex{0, 100, true};        // eta of a metal
 constexpr Range kMetalAbsorption{0, 100, false};  // its k
 constexpr Range kEvenly{-1, 1, false};
+constexpr Range kBending{-100, 100, false};
+
+/// Textures that multiply the one of the same name.
+struct Factors {
+  TexturePointer emission, normal_map, bump;
+};
 
 struct MaterialInput {
   std::optional<ColorValue> color;
@@ -34,6 +40,7 @@ struct MaterialInput {
   double alpha = 1;
   bool energy_compensation = true;
   MaterialTextures textures;
+  Factors factors;
   std::optional<ColorValue> normal_map;
   std::optional<double> bump;
   double normal_scale = 1, bump_scale = 1;
@@ -56,7 +63,8 @@ constexpr PropertyRow kMaterial[] = {
         .or_texture<&MaterialInput::textures, &MaterialTextures::metallic>(),
     property<&MaterialInput::ior>("ior", "How strongly it refracts: water 1.33, glass 1.5, diamond 2.42.")
         .within(kIndexOfRefraction)
-        .or_else("1.5"),
+        .or_else("1.5")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::ior>(),
     property<&MaterialInput::specular>("specular", "The strength of the layer's reflection.")
         .within(kShare)
         .or_else("1")
@@ -68,16 +76,20 @@ constexpr PropertyRow kMaterial[] = {
     property<&MaterialInput::thin>("thin", "A sheet without an inside, as a soap bubble or a pane."),
     property<&MaterialInput::attenuation_color>(
         "attenuation_color", "What white light has become after attenuation_distance inside.")
-        .within(kShare),
+        .within(kShare)
+        .or_texture<&MaterialInput::textures, &MaterialTextures::attenuation_color>(),
     property<&MaterialInput::attenuation_distance>("attenuation_distance",
                                                    "The way inside after which it has.")
         .in("scene units")
         .within(kPositive)
-        .or_else("endless: clear"),
+        .or_else("endless: clear")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::attenuation_distance>(),
     property<&MaterialInput::emission>("emission", "What it gives off; 1 is white.")
         .within(kBrightness)
         .or_texture<&MaterialInput::textures, &MaterialTextures::emission>(),
-    property<&MaterialInput::emission_strength>("emission_strength", "Times emission.").within(kBrightness),
+    property<&MaterialInput::emission_strength>("emission_strength", "Times emission.")
+        .within(kBrightness)
+        .or_texture<&MaterialInput::factors, &Factors::emission>(),
     property<&MaterialInput::coat>("coat", "The share of it that has a clear coat over all else.")
         .within(kShare)
         .or_texture<&MaterialInput::textures, &MaterialTextures::coat>(),
@@ -96,22 +108,28 @@ constexpr PropertyRow kMaterial[] = {
     property<&MaterialInput::eta>("eta", "A measured metal: its index of refraction for red, green and blue.")
         .within(kMetalIndex)
         .as(PropertyType::kVector)
-        .or_else("no measured metal"),
+        .or_else("no measured metal")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::eta>(),
     property<&MaterialInput::k>("k", "Its absorption for red, green and blue.")
         .within(kMetalAbsorption)
         .as(PropertyType::kVector)
-        .or_else("no measured metal"),
+        .or_else("no measured metal")
+        .or_texture<&MaterialInput::textures, &MaterialTextures::k>(),
     property<&MaterialInput::normal_map>("normal_map",
                                          "Bends the normal: red, green, blue are along u, v and away.")
         .or_texture<&MaterialInput::textures, &MaterialTextures::normal_map>()
         .for_textures_alone()
         .or_else("not given"),
-    property<&MaterialInput::normal_scale>("normal_scale", "How strongly it does.").within({-100, 100}),
+    property<&MaterialInput::normal_scale>("normal_scale", "How strongly it does.")
+        .within(kBending)
+        .or_texture<&MaterialInput::factors, &Factors::normal_map>(),
     property<&MaterialInput::bump>("bump", "Heights that bend the normal, as if they were there.")
         .or_texture<&MaterialInput::textures, &MaterialTextures::bump>()
         .for_textures_alone()
         .or_else("not given"),
-    property<&MaterialInput::bump_scale>("bump_scale", "The height of 1.").in("scene units"),
+    property<&MaterialInput::bump_scale>("bump_scale", "The height of 1.")
+        .in("scene units")
+        .or_texture<&MaterialInput::factors, &Factors::bump>(),
 };
 
 constexpr std::string_view kWordsToCome[] = {"sheen_color", "iridescence", "dispersion"};
@@ -123,12 +141,12 @@ bool is_consistent(const MaterialInput& in, BlockContext& block) {
                 in.eta ? "k 3.9 2.4 1.6" : "eta 0.14 0.37 1.44");
     return false;
   }
-  if (in.eta && in.metallic && *in.metallic < 1) {
+  if (in.eta && in.metallic && *in.metallic < 1 && !in.textures.metallic) {
     block.error("metallic", "'eta' and 'k' are a metal's, and 'metallic' says it is none",
                 "remove 'metallic'");
     return false;
   }
-  const double metallic = in.eta ? 1 : in.metallic.value_or(0);
+  const double metallic = in.metallic.value_or(in.eta ? 1 : 0);
   if (metallic == 1 && in.transmission > 0) {
     block.error("transmission",
                 "a metal lets no light in: 'metallic' and 'transmission' contradict each other",
@@ -159,6 +177,8 @@ void warn_of_idle_words(const MaterialInput& in, BlockContext& block) {
       {"thin", lets_in || !in.thin, "'transmission'", "transmission 1"},
       {"emission_strength", block.is_given("emission"), "'emission'", "emission 1"},
       {"coat_roughness", in.coat > 0 || block.is_given("coat"), "'coat'", "coat 1"},
+      {"normal_scale", in.textures.normal_map != nullptr, "'normal_map'", "normal_map image \"normals.png\""},
+      {"bump_scale", in.textures.bump != nullptr, "'bump'", "bump noise { }"},
   };
   for (const Idle& row : idle) {
     if (row.has_effect || !block.is_given(row.word)) continue;
@@ -169,21 +189,41 @@ void warn_of_idle_words(const MaterialInput& in, BlockContext& block) {
   }
 }
 
+TextureInput input_of(const TexturePointer& texture, const Color3f& same) {
+  return texture ? TextureInput(texture) : TextureInput(same);
+}
+
+// Null where it is the same everywhere.
+TexturePointer rescaled(const TextureInput& texture, const TextureInput& factor, const Range& range,
+                        Rescaling rescaling = {}) {
+  if (!texture.texture && !factor.texture) return nullptr;
+  if (!factor.texture && factor.color == Color3f(1)) return texture.texture;
+  rescaling.factor = factor;
+  rescaling.least = static_cast<float>(range.least);
+  rescaling.most = static_cast<float>(range.most);
+  return make_rescaled(texture, std::move(rescaling));
+}
+
 // Null where there are none.
 std::shared_ptr<const MaterialTextures> textures_of(const MaterialInput& in) {
   MaterialTextures textures = in.textures;
-  const auto rescale = [](TexturePointer& texture, const Color3f& around, const Color3f& factor) {
-    if (texture && factor != Color3f(1)) texture = make_rescaled(texture, around, factor);
+  const auto factor_of = [](const TexturePointer& factor, double same) {
+    return input_of(factor, Color3f(static_cast<float>(same)));
   };
-  const auto bend = static_cast<float>(in.normal_scale);
-  rescale(textures.normal_map, Color3f(0.5f), {bend, bend, 1});
-  rescale(textures.bump, Color3f(0), Color3f(static_cast<float>(in.bump_scale)));
-  rescale(textures.emission, Color3f(0), Color3f(static_cast<float>(in.emission_strength)));
-  const bool has_any = textures.color || textures.shininess || textures.roughness || textures.metallic ||
-                       textures.specular || textures.transmission || textures.emission || textures.coat ||
-                       textures.coat_roughness || textures.anisotropy || textures.alpha ||
-                       textures.normal_map || textures.bump;
-  return has_any ? std::make_shared<const MaterialTextures>(std::move(textures)) : nullptr;
+  textures.emission = rescaled(input_of(textures.emission, Color3f(in.emission.rgb)),
+                               factor_of(in.factors.emission, in.emission_strength), kBrightness);
+  if (textures.normal_map) {
+    Rescaling bending;
+    bending.around = Color3f(0.5f);
+    bending.channels = {1, 1, 0};
+    textures.normal_map =
+        rescaled(textures.normal_map, factor_of(in.factors.normal_map, in.normal_scale), kBending, bending);
+  }
+  if (textures.bump) {
+    textures.bump = rescaled(textures.bump, factor_of(in.factors.bump, in.bump_scale), kAnyNumber);
+  }
+  if (textures == MaterialTextures{}) return nullptr;
+  return std::make_shared<const MaterialTextures>(std::move(textures));
 }
 
 void build_material(const MaterialInput& in, BlockContext& block) {
@@ -196,7 +236,7 @@ void build_material(const MaterialInput& in, BlockContext& block) {
   material.shininess = static_cast<float>(in.shininess);
   material.has_layer = in.roughness || in.ior || in.specular || lets_in;
   material.roughness = static_cast<float>(in.roughness.value_or(block.is_given("transmission") ? 0 : 0.3));
-  material.metallic = static_cast<float>(is_measured ? 1 : in.metallic.value_or(0));
+  material.metallic = static_cast<float>(in.metallic.value_or(is_measured ? 1 : 0));
   material.ior = static_cast<float>(in.ior.value_or(1.5));
   material.specular = static_cast<float>(in.specular.value_or(1));
   material.anisotropy = static_cast<float>(in.anisotropy);

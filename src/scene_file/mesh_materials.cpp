@@ -18,10 +18,14 @@ bool is_black(const Color3f& color) { return color == Color3f(0); }
 std::span<const MtlMap> mtl_maps() {
   using Map = MeshData::NamedMaterial::Map;
   static constexpr MtlMap kMaps[] = {
-      {Map::kColor, &MaterialTextures::color, true},   {Map::kEmission, &MaterialTextures::emission, true},
-      {Map::kRoughness, &MaterialTextures::roughness}, {Map::kMetallic, &MaterialTextures::metallic},
-      {Map::kAlpha, &MaterialTextures::alpha},         {Map::kNormal, &MaterialTextures::normal_map},
-      {Map::kBump, &MaterialTextures::normal_map},
+      {Map::kColor, &MaterialTextures::color, MtlContent::kColor},
+      {Map::kEmission, &MaterialTextures::emission, MtlContent::kColor},
+      {Map::kRoughness, &MaterialTextures::roughness},
+      {Map::kMetallic, &MaterialTextures::metallic},
+      {Map::kAlpha, &MaterialTextures::alpha},
+      {Map::kNormal, &MaterialTextures::normal_map},
+      {Map::kBump, &MaterialTextures::normal_map, MtlContent::kBumpNormals},
+      {Map::kBump, &MaterialTextures::bump, MtlContent::kBumpHeights},
   };
   return kMaps;
 }

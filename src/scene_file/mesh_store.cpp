@@ -13,6 +13,7 @@
 #include "scene_file/files.hpp"
 #include "shapes/mesh.hpp"
 #include "textures/image_texture.hpp"
+#include "textures/patterns.hpp"
 
 namespace raytracer::scene_file {
 namespace {
@@ -40,7 +41,7 @@ SceneHash hash_of(const MeshData& mesh) {
     for (const Color3f& color : {m.color, m.emission, m.specular}) {
       for (int i = 0; i < 3; ++i) hasher.add(static_cast<double>(color[i]));
     }
-    for (const float x : {m.exponent, m.alpha, m.ior, m.roughness, m.metallic})
+    for (const float x : {m.exponent, m.alpha, m.ior, m.roughness, m.metallic, m.bump_scale.value_or(0)})
       hasher.add(static_cast<double>(x));
     for (const std::string& map : m.maps) hasher.add(std::string_view(map));
   }
@@ -89,6 +90,17 @@ void add_parts(const std::shared_ptr<const MeshData>& data, std::uint32_t own,
   add(at, static_cast<std::uint32_t>(data->triangles.size()), own);
 }
 
+// By the factor that -bm says: heights are scene units then, and normals lean as much more.
+TexturePointer bumps_times(float factor, TexturePointer texture, MtlContent content) {
+  Rescaling rescaling;
+  rescaling.factor = Color3f(factor);
+  if (content == MtlContent::kBumpNormals) {
+    rescaling.around = Color3f(0.5F);
+    rescaling.channels = {1, 1, 0};
+  }
+  return make_rescaled(std::move(texture), std::move(rescaling));
+}
+
 }  // namespace
 
 void MeshStore::load(MeshFile& mesh, const Place& place) {
@@ -120,13 +132,11 @@ void MeshStore::load(MeshFile& mesh, const Place& place) {
 std::shared_ptr<const MaterialTextures> MeshStore::textures_of(const MeshData::NamedMaterial& said,
                                                                MeshFile& mesh, const Place& place) {
   auto textures = std::make_shared<MaterialTextures>();
-  bool has_any = false;
   for (const MtlMap& row : mtl_maps()) {
     TexturePointer& texture = (*textures).*row.texture;
     if (texture == nullptr && !said.map(row.map).empty()) texture = texture_of(said, row, mesh, place);
-    has_any = has_any || texture != nullptr;
   }
-  return has_any ? std::move(textures) : nullptr;
+  return *textures == MaterialTextures{} ? nullptr : std::move(textures);
 }
 
 // Null where it can't be shown, which is then told.
@@ -142,17 +152,22 @@ TexturePointer MeshStore::texture_of(const MeshData::NamedMaterial& said, const 
     files_.require_allowed(path);
     files_.note_read(path);  // also where it turns out to be of no use
     const std::shared_ptr<const Picture> picture = files_.pictures().picture(path);
-    if (row.map == MeshData::NamedMaterial::Map::kBump && picture->channels < 3) {
-      return leave_out("is left out: MTL does not say how high its bumps are; a material's 'bump' does");
+    const bool is_grey = picture->channels < 3, has_scale = said.bump_scale.has_value();
+    if (row.content == MtlContent::kBumpNormals && is_grey) return nullptr;
+    if (row.content == MtlContent::kBumpHeights && !is_grey) return nullptr;
+    if (row.content == MtlContent::kBumpHeights && !has_scale) {
+      return leave_out("is left out: its file does not say with -bm how high its bumps are");
     }
     const TextureMeaning color =
         mesh.options.linear_colors ? TextureMeaning::kLight : TextureMeaning::kDisplay;
-    TexelUse use{row.is_color ? color : TextureMeaning::kNumber};
+    TexelUse use{row.content == MtlContent::kColor ? color : TextureMeaning::kNumber};
     const bool is_alpha = row.map == MeshData::NamedMaterial::Map::kAlpha;
     if (is_alpha) use.channel = picture->has_alpha() ? TextureChannel::kAlpha : TextureChannel::kMean;
     auto pyramid = files_.pictures().pyramid(path, use);
     mesh.pictures.push_back(path);
-    return make_image_texture(std::move(pyramid), TexturePlacement{});
+    TexturePointer texture = make_image_texture(std::move(pyramid), TexturePlacement{});
+    const bool is_bump = row.map == MeshData::NamedMaterial::Map::kBump;
+    return is_bump && has_scale ? bumps_times(*said.bump_scale, std::move(texture), row.content) : texture;
   } catch (const Error& error) {
     return leave_out(fmt::format("can't be shown: {}", error.what()));
   }

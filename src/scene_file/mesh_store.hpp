@@ -23,11 +23,19 @@ namespace raytracer::scene_file {
 class Diagnostics;
 class Files;
 
-/// What a picture that an MTL file names stands for.
+/// What a picture that an MTL file names holds.
+enum class MtlContent : std::uint8_t {
+  kNumber,
+  kColor,
+  kBumpNormals,  ///< of map_bump: normals if the picture is in colour …
+  kBumpHeights,  ///< … and heights if it is grey
+};
+
+/// What it stands for.
 struct MtlMap {
   MeshData::NamedMaterial::Map map;
   TexturePointer MaterialTextures::*texture;
-  bool is_color = false;
+  MtlContent content = MtlContent::kNumber;
 };
 /// One row for each. Where two stand for the same the first counts that is there.
 std::span<const MtlMap> mtl_maps();

@@ -26,6 +26,8 @@ std::vector<std::string_view> texture_names() {
   return names;
 }
 
+bool is_color(const PropertyRow& row) { return row.type == PropertyType::kColor && !row.is_texture_only; }
+
 // What a textured property keeps for a value, so that what is made of it knows that there is some.
 constexpr double kSomething = 0.5;
 
@@ -169,8 +171,7 @@ bool BlockContext::fill_texture_block(const PropertyRow& row, const BlockNode& b
   if (kind == nullptr) return false;
   // What the outermost property wants decides on what colours and pictures mean in all within.
   const bool is_outermost = row_.block_class != BlockClass::kTexture;
-  const bool is_color = row.type == PropertyType::kColor && !row.is_texture_only;
-  const TextureMeaning wanted = is_color ? builder_.color_meaning() : TextureMeaning::kNumber;
+  const TextureMeaning wanted = is_color(row) ? builder_.color_meaning() : TextureMeaning::kNumber;
   const TextureMeaning meaning_before = builder_.texture_meaning_;
   const bool is_opacity_before = builder_.texture_is_opacity_;
   if (is_outermost) {
@@ -255,7 +256,7 @@ bool BlockContext::fill_expression(const PropertyRow& row, const PropertyNode& p
   auto compiled = compile_expression(e, *around_.source, around_.frame->values, builder_.evaluator_,
                                      builder_.diagnostics_);
   if (!compiled) return false;
-  const bool wants_number = row.type != PropertyType::kColor;
+  const bool wants_number = row.type == PropertyType::kNumber;
   if (wants_number && compiled->program.is_vector) {
     builder_.diagnostics_.error(place(e.span),
                                 fmt::format("'{}' takes {}, found a vector", row.name, describe_type(row)),
@@ -263,8 +264,8 @@ bool BlockContext::fill_expression(const PropertyRow& row, const PropertyNode& p
     return false;
   }
   const TextureMeaning meaning = row_.block_class == BlockClass::kTexture ? builder_.texture_meaning_
-                                 : wants_number || row.is_texture_only    ? TextureMeaning::kNumber
-                                                                          : builder_.color_meaning();
+                                 : is_color(row)                          ? builder_.color_meaning()
+                                                                          : TextureMeaning::kNumber;
   if (compiled->is_display && meaning == TextureMeaning::kLight) {
     append_function(compiled->program, [](const Vector3d& c) {
       return Vector3d(linear_from_display(c.x), linear_from_display(c.y), linear_from_display(c.z));

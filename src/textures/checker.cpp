@@ -15,6 +15,7 @@ class Checker final : public Pattern {
  protected:
   // A footprint that is long and lies askew is cut into shorter ones, whose boxes fit it better.
   float share(const PatternPoint& point) const override {
+    if (point.is_rough) return share_somewhere(point);
     const bool is_dy_longer = glm::dot(point.dy, point.dy) > glm::dot(point.dx, point.dx);
     const Vector3f& along = is_dy_longer ? point.dy : point.dx;
     const Vector3f& across = is_dy_longer ? point.dx : point.dy;
@@ -32,6 +33,19 @@ class Checker final : public Pattern {
   }
 
  private:
+  float share_somewhere(const PatternPoint& point) const {
+    if (glm::dot(point.dx, point.dx) > 1) return 0.5F;
+    int cell = 0;
+    for (int axis = 0; axis < (map() == PatternMap::kUv ? 2 : 3); ++axis)
+      cell ^= cell_of(point.position[axis]);
+    return static_cast<float>(cell & 1);
+  }
+
+  static int cell_of(float x) {
+    constexpr float kWhole = 0x1p24F;  // from here on all are even
+    return std::abs(x) < kWhole ? static_cast<int>(std::floor(x)) : 0;
+  }
+
   // Each mean is a difference of integrals over a width; in double, as they are close to each other.
   float parity(const Vector3f& place, const Vector3f& width) const {
     double differences = 1, widths = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "core/noise.hpp"
 #include "core/numeric.hpp"
@@ -13,10 +14,11 @@ namespace {
 constexpr double kDegrees = 180 / kPi;
 
 Vector3d vector_at(const double* p) { return {p[0], p[1], p[2]}; }
-void put(double* to, const Vector3d& v) {
+double put(double* to, const Vector3d& v) {
   to[0] = v.x;
   to[1] = v.y;
   to[2] = v.z;
+  return v.x;
 }
 
 double sine(double degrees) {
@@ -42,42 +44,50 @@ double length_of(const Vector3d& v) {
 }
 Vector3d normalized(const Vector3d& v) { return length_of(v) > 0 ? glm::normalize(v) : Vector3d(0); }
 
-// One step; everything is a place in r.
-void take(const ExpressionInstruction& i, double* r, std::span<const ExpressionFunction> functions) {
+// One step; returns the number that it has computed. `last` is that of the step before, everything else is a
+// place in r.
+double take(const ExpressionInstruction& i, double* r, double last,
+            std::span<const ExpressionFunction> functions) {
   using Step = ExpressionStep;
   double* to = r + i.to;
   const double *a = r + i.a, *b = r + i.b, *c = r + i.c;
   switch (i.step) {
     case Step::kCopy:
-      *to = *a;
-      return;
-    case Step::kNegate:
-      *to = -*a;
-      return;
+      return *to = *a;
     case Step::kAdd:
-      *to = *a + *b;
-      return;
+      return *to = *a + *b;
     case Step::kSubtract:
-      *to = *a - *b;
-      return;
+      return *to = *a - *b;
     case Step::kMultiply:
-      *to = *a * *b;
-      return;
-    case Step::kDivide:
-      *to = *b == 0 ? 0 : *a / *b;
-      return;
-    case Step::kRemainder:
-      *to = *b == 0 ? 0 : std::fmod(*a, *b);
-      return;
-    case Step::kModulo:
-      *to = *b == 0 ? 0 : *a - *b * std::floor(*a / *b);
-      return;
-    case Step::kPower:
-      *to = power(*a, *b);
-      return;
+      return *to = *a * *b;
     case Step::kMultiplyAdd:
-      *to = *a * *b + *c;
-      return;
+      return *to = *a * *b + *c;
+    case Step::kMultiplySubtract:
+      return *to = *c - *a * *b;
+    case Step::kAddLast:
+      return *to = last + *b;
+    case Step::kSubtractLast:
+      return *to = last - *b;
+    case Step::kSubtractFromLast:
+      return *to = *a - last;
+    case Step::kMultiplyLast:
+      return *to = last * *b;
+    case Step::kMultiplyAddLast:
+      return *to = *a * *b + last;
+    case Step::kMultiplyLastAdd:
+      return *to = last * *b + *c;
+    case Step::kMultiplySubtractLast:
+      return *to = last - *a * *b;
+    case Step::kNegate:
+      return *to = -*a;
+    case Step::kDivide:
+      return *to = *b == 0 ? 0 : *a / *b;
+    case Step::kRemainder:
+      return *to = *b == 0 ? 0 : std::fmod(*a, *b);
+    case Step::kModulo:
+      return *to = *b == 0 ? 0 : *a - *b * std::floor(*a / *b);
+    case Step::kPower:
+      return *to = power(*a, *b);
     case Step::kAddVector:
       return put(to, vector_at(a) + vector_at(b));
     case Step::kSubtractVector:
@@ -87,106 +97,113 @@ void take(const ExpressionInstruction& i, double* r, std::span<const ExpressionF
     case Step::kScaleVector:
       return put(to, vector_at(a) * *b);
     case Step::kLess:
-      *to = *a < *b ? 1 : 0;
-      return;
+      return *to = *a < *b ? 1 : 0;
     case Step::kLessEqual:
-      *to = *a <= *b ? 1 : 0;
-      return;
+      return *to = *a <= *b ? 1 : 0;
     case Step::kEqual:
-      *to = *a == *b ? 1 : 0;
-      return;
+      return *to = *a == *b ? 1 : 0;
     case Step::kAnd:
-      *to = *a != 0 && *b != 0 ? 1 : 0;
-      return;
+      return *to = *a != 0 && *b != 0 ? 1 : 0;
     case Step::kOr:
-      *to = *a != 0 || *b != 0 ? 1 : 0;
-      return;
+      return *to = *a != 0 || *b != 0 ? 1 : 0;
     case Step::kNot:
-      *to = *a == 0 ? 1 : 0;
-      return;
+      return *to = *a == 0 ? 1 : 0;
     case Step::kChoose:
-      *to = *a != 0 ? *b : *c;
-      return;
+      return *to = *a != 0 ? *b : *c;
     case Step::kSin:
-      *to = sine(*a);
-      return;
+      return *to = sine(*a);
     case Step::kCos:
-      *to = cosine(*a);
-      return;
+      return *to = cosine(*a);
     case Step::kTan: {
       const double divisor = cosine(*a);
-      *to = divisor == 0 ? 0 : sine(*a) / divisor;
-      return;
+      return *to = divisor == 0 ? 0 : sine(*a) / divisor;
     }
     case Step::kAsin:
-      *to = kDegrees * std::asin(std::clamp(*a, -1.0, 1.0));
-      return;
+      return *to = kDegrees * std::asin(std::clamp(*a, -1.0, 1.0));
     case Step::kAcos:
-      *to = kDegrees * std::acos(std::clamp(*a, -1.0, 1.0));
-      return;
+      return *to = kDegrees * std::acos(std::clamp(*a, -1.0, 1.0));
     case Step::kAtan2:
-      *to = kDegrees * std::atan2(*a, *b);
-      return;
+      return *to = kDegrees * std::atan2(*a, *b);
     case Step::kSqrt:
-      *to = *a > 0 ? std::sqrt(*a) : 0;
-      return;
+      return *to = *a > 0 ? std::sqrt(*a) : 0;
     case Step::kExp:
-      *to = std::exp(*a);
-      return;
+      return *to = std::exp(*a);
     case Step::kLog:
-      *to = *a > 0 ? std::log(*a) : 0;
-      return;
+      return *to = *a > 0 ? std::log(*a) : 0;
     case Step::kAbs:
-      *to = std::abs(*a);
-      return;
+      return *to = std::abs(*a);
     case Step::kMin:
-      *to = std::min(*a, *b);
-      return;
+      return *to = std::min(*a, *b);
     case Step::kMax:
-      *to = std::max(*a, *b);
-      return;
+      return *to = std::max(*a, *b);
     case Step::kFloor:
-      *to = std::floor(*a);
-      return;
+      return *to = std::floor(*a);
     case Step::kCeil:
-      *to = std::ceil(*a);
-      return;
+      return *to = std::ceil(*a);
     case Step::kRound:
-      *to = std::round(*a);
-      return;
+      return *to = std::round(*a);
     case Step::kSign:
-      *to = *a > 0 ? 1 : *a < 0 ? -1 : 0;
-      return;
+      return *to = *a > 0 ? 1 : *a < 0 ? -1 : 0;
     case Step::kClamp:
-      *to = std::min(std::max(*a, *b), *c);
-      return;
+      return *to = std::min(std::max(*a, *b), *c);
     case Step::kMix:
-      *to = *a * (1 - *c) + *b * *c;
-      return;
+      return *to = *a * (1 - *c) + *b * *c;
     case Step::kSmoothstep:
-      *to = smoothstep(*a, *b, *c);
-      return;
+      return *to = smoothstep(*a, *b, *c);
     case Step::kLength:
-      *to = length_of(vector_at(a));
-      return;
+      return *to = length_of(vector_at(a));
     case Step::kNormalize:
       return put(to, normalized(vector_at(a)));
     case Step::kDot:
-      *to = glm::dot(vector_at(a), vector_at(b));
-      return;
+      return *to = glm::dot(vector_at(a), vector_at(b));
     case Step::kCross:
       return put(to, glm::cross(vector_at(a), vector_at(b)));
     case Step::kNoise: {
       const Vector3d p = vector_at(a);
-      *to = is_finite(p) ? gradient_noise(p) : 0;
-      return;
+      return *to = is_finite(p) ? gradient_noise(p) : 0;
     }
     case Step::kRandom:
-      *to = random_number(std::span(a, i.b));
-      return;
+      return *to = random_number(std::span(a, i.b));
     case Step::kCall:
       return put(to, functions[i.b](vector_at(a)));
   }
+  return 0;
+}
+
+bool writes_one_number(ExpressionStep step) {
+  using Step = ExpressionStep;
+  switch (step) {
+    case Step::kAddVector:
+    case Step::kSubtractVector:
+    case Step::kMultiplyVector:
+    case Step::kScaleVector:
+    case Step::kNormalize:
+    case Step::kCross:
+    case Step::kCall:
+      return false;
+    default:
+      return true;
+  }
+}
+
+// The same with an operand that is at `last`, if there is one.
+ExpressionInstruction chained(ExpressionInstruction i, std::uint16_t last) {
+  using Step = ExpressionStep;
+  const bool is_sum = i.step == Step::kAdd, is_product = i.step == Step::kMultiply;
+  if (is_sum || is_product) {
+    if (i.b == last) std::swap(i.a, i.b);
+    if (i.a == last) i.step = is_sum ? Step::kAddLast : Step::kMultiplyLast;
+  } else if (i.step == Step::kSubtract) {
+    if (i.b == last) i.step = Step::kSubtractFromLast;
+    if (i.a == last && i.b != last) i.step = Step::kSubtractLast;
+  } else if (i.step == Step::kMultiplyAdd) {
+    if (i.b == last) std::swap(i.a, i.b);
+    if (i.a == last) i.step = Step::kMultiplyLastAdd;
+    if (i.c == last) i.step = Step::kMultiplyAddLast;
+  } else if (i.step == Step::kMultiplySubtract && i.c == last) {
+    i.step = Step::kMultiplySubtractLast;
+  }
+  return i;
 }
 
 class ExpressionTexture final : public Texture {
@@ -214,13 +231,22 @@ Vector3d ExpressionProgram::run(const TexturePoint& point) const {
   r[kU] = static_cast<double>(point.uv.x);
   r[kV] = static_cast<double>(point.uv.y);
   std::copy(constants.begin(), constants.end(), r + kFirstConstant);
-  for (const ExpressionInstruction& instruction : instructions) take(instruction, r, functions);
+  double last = 0;
+  for (const ExpressionInstruction& i : instructions) last = take(i, r, last, functions);
   const Vector3d value = is_vector ? vector_at(r + result) : Vector3d(r[result], 0, 0);
   return {std::isfinite(value.x) ? value.x : 0, std::isfinite(value.y) ? value.y : 0,
           std::isfinite(value.z) ? value.z : 0};
 }
 
+void chain(ExpressionProgram& program) {
+  for (std::size_t k = program.instructions.size(); k-- > 1;) {
+    const ExpressionInstruction& before = program.instructions[k - 1];
+    if (writes_one_number(before.step)) program.instructions[k] = chained(program.instructions[k], before.to);
+  }
+}
+
 TexturePointer make_expression_texture(ExpressionProgram program) {
+  chain(program);
   return std::make_shared<ExpressionTexture>(std::move(program));
 }
 

@@ -17,11 +17,12 @@ enum class ExpressionStep : std::uint8_t {
   kAdd,
   kSubtract,
   kMultiply,
-  kDivide,     ///< by 0: 0
-  kRemainder,  ///< with the sign of a; by 0: 0
-  kModulo,     ///< with the sign of b; by 0: 0
-  kPower,      ///< where that is no number: 0
-  kMultiplyAdd,
+  kDivide,            ///< by 0: 0
+  kRemainder,         ///< with the sign of a; by 0: 0
+  kModulo,            ///< with the sign of b; by 0: 0
+  kPower,             ///< where that is no number: 0
+  kMultiplyAdd,       ///< a * b + c
+  kMultiplySubtract,  ///< c - a * b
   kAddVector,
   kSubtractVector,
   kMultiplyVector,
@@ -59,6 +60,15 @@ enum class ExpressionStep : std::uint8_t {
   kNoise,
   kRandom,  ///< of b numbers from a on; b is no place but their count
   kCall,    ///< three numbers from a on, to three from `to` on; b is the number of a function
+  // What chain() makes of steps: one operand is what the step before has computed, which need not be waited
+  // for until it can be read back from its place.
+  kAddLast,               ///< last + b
+  kSubtractLast,          ///< last - b
+  kSubtractFromLast,      ///< a - last
+  kMultiplyLast,          ///< last * b
+  kMultiplyAddLast,       ///< a * b + last
+  kMultiplyLastAdd,       ///< last * b + c
+  kMultiplySubtractLast,  ///< last - a * b
 };
 
 struct ExpressionInstruction {
@@ -84,6 +94,9 @@ struct ExpressionProgram {
   /// The result at a point, a number in x. What is not finite is 0.
   Vector3d run(const TexturePoint& point) const;
 };
+
+/// Lets steps take what the step before them has computed as it is; the results stay what they are.
+void chain(ExpressionProgram& program);
 
 TexturePointer make_expression_texture(ExpressionProgram program);
 

@@ -9,6 +9,8 @@
 namespace raytracer {
 namespace {
 
+constexpr std::uint32_t kAlongX = 0x9E3779B1U, kAlongY = 0x85EBCA77U, kAlongZ = 0xC2B2AE3DU;
+
 float gradient(std::uint32_t hash, float x, float y, float z) {
   const std::uint32_t direction = ((hash >> 16U) * 12U) >> 16U;
   const float first = direction < 8 ? x : y;
@@ -24,7 +26,7 @@ template <class Term>
 float sum_of_octaves(Vector3f p, int octaves, float gain, float width, const Term& term) {
   float sum = 0, weights = 0, weight = 1;
   for (int i = 0; i < octaves; ++i) {
-    const float left = detail_left(width);
+    const float left = width < kNoDetail ? detail_left(width) : 0.0F;
     sum += weight * term(left > 0 ? lattice_noise(p) : 0.0F, left);
     weights += weight;
     weight *= gain;
@@ -40,7 +42,7 @@ float sum_of_octaves(Vector3f p, int octaves, float gain, float width, const Ter
 std::uint32_t cell_hash(const glm::ivec3& cell) {
   const auto x = static_cast<std::uint32_t>(cell.x), y = static_cast<std::uint32_t>(cell.y),
              z = static_cast<std::uint32_t>(cell.z);
-  return hash_bits(x * 0x9E3779B1U + hash_bits(y * 0x85EBCA77U + hash_bits(z + 0xC2B2AE3DU)));
+  return hash_bits(x * kAlongX + hash_bits(y * kAlongY + hash_bits(z + kAlongZ)));
 }
 
 glm::ivec3 cell_of(const Vector3f& p) {
@@ -48,21 +50,26 @@ glm::ivec3 cell_of(const Vector3f& p) {
   return {static_cast<int>(cell.x), static_cast<int>(cell.y), static_cast<int>(cell.z)};
 }
 
+// The eight corners of the cell side by side, the first two along x, so that the compiler does them at once.
 float lattice_noise(const Vector3f& p) {
   const glm::ivec3 cell = cell_of(p);
   const Vector3f f = glm::clamp(p - Vector3f(cell), 0.0F, 1.0F);
   const Vector3f share = {fade(f.x), fade(f.y), fade(f.z)};
-  float along_z[2];
-  for (int k = 0; k < 2; ++k) {
-    float along_y[2];
-    for (int j = 0; j < 2; ++j) {
-      const float y = f.y - static_cast<float>(j), z = f.z - static_cast<float>(k);
-      const float left = gradient(cell_hash(cell + glm::ivec3(0, j, k)), f.x, y, z);
-      const float right = gradient(cell_hash(cell + glm::ivec3(1, j, k)), f.x - 1, y, z);
-      along_y[j] = blend(left, right, share.x);
-    }
-    along_z[k] = blend(along_y[0], along_y[1], share.y);
+  std::uint32_t hash[8];
+  for (std::uint32_t i = 0; i < 8; ++i)
+    hash[i] = hash_bits(static_cast<std::uint32_t>(cell.z) + (i >> 2U) + kAlongZ);
+  for (std::uint32_t i = 0; i < 8; ++i)
+    hash[i] = hash_bits((static_cast<std::uint32_t>(cell.y) + (i >> 1U & 1U)) * kAlongY + hash[i]);
+  for (std::uint32_t i = 0; i < 8; ++i)
+    hash[i] = hash_bits((static_cast<std::uint32_t>(cell.x) + (i & 1U)) * kAlongX + hash[i]);
+  float corner[8];
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    corner[i] = gradient(hash[i], f.x - static_cast<float>(i & 1U), f.y - static_cast<float>(i >> 1U & 1U),
+                         f.z - static_cast<float>(i >> 2U));
   }
+  float along_y[4], along_z[2];
+  for (std::uint32_t i = 0; i < 4; ++i) along_y[i] = blend(corner[2 * i], corner[2 * i + 1], share.x);
+  for (std::uint32_t i = 0; i < 2; ++i) along_z[i] = blend(along_y[2 * i], along_y[2 * i + 1], share.y);
   return std::clamp(blend(along_z[0], along_z[1], share.z), -1.0F, 1.0F);
 }
 

@@ -89,8 +89,10 @@ class ImageTexture : public Texture {
   }
 
   Color3f at(const TexturePoint& point) const override {
-    const Color3f color =
-        over_parallelogram(placed(point.uv) + offset_, placed(point.uv_dx), placed(point.uv_dy));
+    const Vector2f uv = placed(point.uv) + offset_, dx = placed(point.uv_dx), dy = placed(point.uv_dy);
+    const Color3f color = point.is_rough    ? somewhere(uv, dx, dy)
+                          : point.is_coarse ? over_parallelogram(uv, dx, dy)
+                                            : average(uv, dx, dy, kSmallOfMany);
     return is_mean_ ? Color3f((color.x + color.y + color.z) / 3) : color;
   }
 
@@ -99,26 +101,37 @@ class ImageTexture : public Texture {
  private:
   Vector2f placed(const Vector2f& uv) const { return uv.x * along_u_ + uv.y * along_v_; }
 
+  // One look at the level whose texels are about as large.
+  Color3f somewhere(const Vector2f& uv, const Vector2f& dx, const Vector2f& dy) const {
+    const float texels = std::abs(dx.x * dy.y - dx.y * dy.x) * size_.x * size_.y;
+    const int level = texels >= 2 && texels < kInfinity ? (std::ilogb(texels) + 1) / 2 : 0;
+    return pyramid_->bilinear(std::min(level, pyramid_->level_count() - 1), uv, wrap_);
+  }
+
+  // Half a texel is blurred more by being bilinear than by its size. Of samples with many neighbours, which
+  // will show what is lost between them, that goes for a whole one.
+  static constexpr float kSmall = 0.25f, kSmallOfMany = 1;
+
   // A look blurs softly beyond what it stands for. Four of a quarter each come close to the parallelogram
   // that a sample stands for: the error of the strongest detail, black and white noise, falls from 3.1 to 1.4
   // of 255.
   Color3f over_parallelogram(const Vector2f& uv, const Vector2f& dx, const Vector2f& dy) const {
-    if (pyramid_->level_count() == 1 || is_small(dx, dy)) return pyramid_->bilinear(0, uv, wrap_);
+    if (is_small(dx, dy, kSmall)) return pyramid_->bilinear(0, uv, wrap_);
     const Vector2f right = 0.5f * dx, below = 0.5f * dy;
     const Vector2f corner = uv - 0.5f * (right + below);
-    return 0.25f * (average(corner, right, below) + average(corner + right, right, below) +
-                    average(corner + below, right, below) + average(corner + right + below, right, below));
+    const auto quarter = [&](const Vector2f& from) { return average(from, right, below, kSmall); };
+    return 0.25f * (quarter(corner) + quarter(corner + right) + quarter(corner + below) +
+                    quarter(corner + right + below));
   }
 
-  // Half a texel is blurred more by being bilinear than by its size.
-  bool is_small(const Vector2f& dx, const Vector2f& dy) const {
-    constexpr float kSmall = 0.25f;
+  bool is_small(const Vector2f& dx, const Vector2f& dy, float small) const {
+    if (pyramid_->level_count() == 1) return true;
     const Vector2f right = dx * size_, below = dy * size_;
-    return glm::dot(right, right) + glm::dot(below, below) < kSmall;
+    return glm::dot(right, right) + glm::dot(below, below) < small;
   }
 
-  Color3f average(const Vector2f& uv, const Vector2f& dx, const Vector2f& dy) const {
-    if (is_small(dx, dy)) return pyramid_->bilinear(0, uv, wrap_);
+  Color3f average(const Vector2f& uv, const Vector2f& dx, const Vector2f& dy, float small) const {
+    if (is_small(dx, dy, small)) return pyramid_->bilinear(0, uv, wrap_);
     const Ellipse ellipse = ellipse_of(dx * size_, dy * size_);
     constexpr float kEndless = 1e15f;  // so far beyond any picture that only the average of all is left
     if (!(ellipse.short_variance < kEndless && ellipse.long_variance < kEndless * kEndless)) {

@@ -4,31 +4,54 @@
 #include <cmath>
 
 #include "textures/averaged.hpp"
+#include "textures/limited.hpp"
 
 namespace raytracer {
 namespace {
 
 constexpr float kBrightest = 1e30f;  // beyond it products of colours are no numbers any more
 
-// What is not a number becomes `lowest`.
-float limited(float value, float lowest, float highest) {
-  return value > lowest ? std::min(value, highest) : lowest;
+// What a texture may take the place of, one row each, with the values that make sense there.
+template <class Value>
+struct Row {
+  TexturePointer MaterialTextures::*texture;
+  Value& (*value)(MaterialValues&);
+  float least = 0, most = 1;
+};
+
+template <auto Member>
+auto& member(MaterialValues& values) {
+  return values.*Member;
 }
 
-Color3f limited(const Color3f& value, float lowest, float highest) {
-  return {limited(value.x, lowest, highest), limited(value.y, lowest, highest),
-          limited(value.z, lowest, highest)};
+template <Vector3f ConductorIndex::*Member>
+Color3f& of_conductor(MaterialValues& values) {
+  if (!values.conductor) values.conductor.emplace();
+  return (*values.conductor).*Member;
 }
 
-// What a colour says where a number is wanted: its channels' mean.
-float number_of(const Color3f& color) {
-  const bool is_grey = color.x == color.y && color.y == color.z;
-  return is_grey ? color.x : (color.x + color.y + color.z) / 3;
-}
-
-void look_up(const TexturePointer& texture, const TexturePoint& point, float lowest, float& value) {
-  if (texture) value = limited(number_of(averaged(*texture, point)), lowest, 1);
-}
+using Textures = MaterialTextures;
+using Values = MaterialValues;
+constexpr Row<float> kNumbers[] = {
+    {&Textures::shininess, member<&Values::shininess>},
+    {&Textures::roughness, member<&Values::roughness>},
+    {&Textures::metallic, member<&Values::metallic>},
+    {&Textures::ior, member<&Values::ior>, 1, 10},
+    {&Textures::specular, member<&Values::specular>},
+    {&Textures::transmission, member<&Values::transmission>},
+    {&Textures::attenuation_distance, member<&Values::attenuation_distance>, 0, 1e18F},
+    {&Textures::coat, member<&Values::coat>},
+    {&Textures::coat_roughness, member<&Values::coat_roughness>},
+    {&Textures::anisotropy, member<&Values::anisotropy>, -1, 1},
+    {&Textures::alpha, member<&Values::alpha>},
+};
+constexpr Row<Color3f> kColors[] = {
+    {&Textures::color, member<&Values::color>},
+    {&Textures::attenuation_color, member<&Values::attenuation_color>},
+    {&Textures::emission, member<&Values::emission>, 0, kBrightest},
+    {&Textures::eta, of_conductor<&ConductorIndex::eta>, 0.01F, 100},
+    {&Textures::k, of_conductor<&ConductorIndex::k>, 0, 100},
+};
 
 }  // namespace
 
@@ -36,24 +59,20 @@ MaterialValues material_at(const Material& material, const TexturePoint& point) 
   MaterialValues result = material;
   if (!material.textures) return result;
   const MaterialTextures& textures = *material.textures;
-  if (textures.color) result.color = limited(averaged(*textures.color, point), 0, 1);
-  if (textures.emission) result.emission = limited(averaged(*textures.emission, point), 0, kBrightest);
-  look_up(textures.shininess, point, 0, result.shininess);
-  look_up(textures.roughness, point, 0, result.roughness);
-  look_up(textures.metallic, point, 0, result.metallic);
-  look_up(textures.specular, point, 0, result.specular);
-  look_up(textures.transmission, point, 0, result.transmission);
-  look_up(textures.coat, point, 0, result.coat);
-  look_up(textures.coat_roughness, point, 0, result.coat_roughness);
-  look_up(textures.anisotropy, point, -1, result.anisotropy);
-  look_up(textures.alpha, point, 0, result.alpha);
+  for (const Row<Color3f>& row : kColors) {
+    const TexturePointer& texture = textures.*row.texture;
+    if (texture) row.value(result) = limited(averaged(*texture, point), row.least, row.most);
+  }
+  for (const Row<float>& row : kNumbers) {
+    const TexturePointer& texture = textures.*row.texture;
+    if (texture) row.value(result) = limited(number_of(averaged(*texture, point)), row.least, row.most);
+  }
   return result;
 }
 
 float alpha_at(const Material& material, const TexturePoint& point) {
-  float alpha = material.alpha;
-  if (material.textures) look_up(material.textures->alpha, point, 0, alpha);
-  return alpha;
+  if (!material.textures || !material.textures->alpha) return material.alpha;
+  return limited(number_of(averaged(*material.textures->alpha, point)), 0, 1);
 }
 
 Color3f emitted_at(const Material& material, const TexturePoint& point) {

@@ -14,6 +14,7 @@ constexpr float kBeneath = 1e-4F;
 PatternPoint Pattern::own_point(const TexturePoint& point) const {
   const PatternSpace& space = setup_.space;
   PatternPoint own;
+  own.is_rough = point.is_rough;
   if (space.map == PatternMap::kUv) {
     own.position = space.linear * Vector3f(point.uv, 0) + space.translation;
     own.dx = space.linear * Vector3f(point.uv_dx, 0);
@@ -56,6 +57,6 @@ float square_wave(float x, float duty, float width) {
   return static_cast<float>((integral(at + half) - integral(at - half)) / (2 * half));
 }
 
-float detail_left(float width) { return 1 - glm::smoothstep(0.4F, 1.2F, width); }
+float detail_left(float width) { return 1 - glm::smoothstep(0.4F, kNoDetail, width); }
 
 }  // namespace raytracer

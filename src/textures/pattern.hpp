@@ -39,6 +39,7 @@ struct PatternPoint {
   Vector3f position{0};
   Vector3f normal{0, 0, 1};
   Vector3f dx{0}, dy{0};  ///< the edges of the footprint
+  bool is_rough = false;  ///< as TexturePoint has it
 
   /// The standard-deviation-preserving width of the footprint along each axis.
   Vector3f extent() const { return glm::sqrt(dx * dx + dy * dy); }
@@ -83,5 +84,6 @@ float square_wave(float x, float duty, float width);
 /// How much is left of detail of size 1 under a footprint of that width: 1 for a point, 0 from a little above
 /// the detail's size on.
 float detail_left(float width);
+inline constexpr float kNoDetail = 1.2F;  ///< from that width on it is 0
 
 }  // namespace raytracer

@@ -72,7 +72,13 @@ struct RampStop {
 /// without end. The stops are in order.
 TexturePointer make_ramp(TextureInput value, std::vector<RampStop> stops);
 
-/// Another texture's colours, per channel moved away from `around` by the factor.
-TexturePointer make_rescaled(TexturePointer texture, const Color3f& around, const Color3f& factor);
+struct Rescaling {
+  Color3f around{0};                           ///< stays as it is
+  TextureInput factor{Color3f(1)};             ///< a number
+  float least = -kInfinity, most = kInfinity;  ///< the factor's range
+  Color3f channels{1};                         ///< 1 where the factor counts, 0 where it does not
+};
+/// Another texture's colours, moved away from one of them by a factor.
+TexturePointer make_rescaled(TextureInput texture, Rescaling rescaling);
 
 }  // namespace raytracer

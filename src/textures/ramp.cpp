@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "textures/limited.hpp"
 #include "textures/patterns.hpp"
 
 namespace raytracer {
@@ -11,8 +12,7 @@ class Ramp final : public Texture {
       : value_(std::move(value)), stops_(std::move(stops)) {}
 
   Color3f at(const TexturePoint& point) const override {
-    const Color3f channels = value_.at(point);
-    const float value = (channels.x + channels.y + channels.z) / 3;
+    const float value = number_of(value_.at(point));
     const auto next = std::ranges::find_if(stops_, [&](const RampStop& stop) { return stop.at > value; });
     if (next == stops_.begin()) return next->color.at(point);
     const auto last = std::prev(next);

@@ -160,7 +160,10 @@ auto TexelPyramid::with_decoder(const Level& level, const Function& function) co
       return function(
           [](Texel texel, std::size_t c) { return float_from_half(load<std::uint16_t>(texel + 2 * c)); });
     case Format::kRgbe:
-      return function([](Texel texel, std::size_t c) { return rgb_from_rgbe(texel)[static_cast<int>(c)]; });
+      return function([scale = picture_->scale](Texel texel, std::size_t c) {
+        const auto channel = static_cast<int>(c);
+        return rgb_from_rgbe(texel)[channel] * scale[channel];
+      });
     case Format::kFloat:
       break;
   }

@@ -13,11 +13,11 @@ SMALL = ("--size", "40x24", "--samples", "1", "-q", "-o", "-")
 
 
 def png(width, height, pixel):
-    """A PNG of 8-bit RGB, or RGB and alpha, whose pixels are pixel(x, y)."""
+    """A PNG of 8-bit grey, RGB, or RGB and alpha, whose pixels are pixel(x, y)."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(width)) for y in range(height))
-    header = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[len(pixel(0, 0))], 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, 8, {1: 0, 3: 2, 4: 6}[len(pixel(0, 0))], 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
@@ -46,9 +46,10 @@ MISTAKES = [
     ("sphere { material { color image 5 } }", "'image' takes the name of one file, found 5", 'color image "file"'),
     ('sphere { material { color image "a.png" "b.png" } }', "one file, found \"b.png\"", 'color image "file"'),
     ('let a = "a.png" sphere { material { color image a } }', "one file, found a", "color image { file a }"),
-    ('sphere { material { ior image "a.png" } }', "'ior' takes no texture, but a number", "ior 1"),
-    ("sphere { material { ior checker { } } }", "'ior' takes no texture, but a number", "ior 1"),
-    ("sphere { material { ior (1.5 + 0.5 * u) } }", "'ior' takes no texture, but a number", "ior 1"),
+    ('sphere { material { ior image "no.png" } }', "there is no file 'no.png'", "looked for"),
+    ("sphere { material { ior (n) } }", "'ior' takes a number, found a vector", "(v.x)"),
+    ("sphere { material { k (u) } }", "'eta' and 'k' make a metal together", "eta 0.14 0.37 1.44"),
+    ("sphere { material { thin checker { } } }", "'thin' takes no texture, but true or false", "thin true"),
     ("sphere { radius noise { } }", "'radius' takes no texture, but a number", "radius 1"),
     ("sphere { material { color u } }", "'u' is computed at each point: it needs parentheses", "color (u)"),
     ("sphere { radius (2 * v) }", "there is no 'v'", "v exists only in materials"),
@@ -77,6 +78,12 @@ SCENES = {
         sphere { center 1 0.5 0  material { color image "wood.png" { wrap mirror  uv_scale 3 2 } } }
         cube { center -1 0.5 0  material { color image { file "wood.png"  scale 0.5  channel red } } }
         sky gradient { zenith navy  horizon white  ground #404030  strength 0.8 }""",
+    "numbers": """
+        texture noise soft { a 1.2  b 1.8  scale 0.3 }
+        sphere { center -1 0.5 0  material { transmission 1  ior soft  attenuation_color image "wood.png"  attenuation_distance (0.2 + u) } }
+        sphere { center 1 0.5 0  material { eta (0.2, 0.5 + u, 1)  k checker { a 3 2 1  b 4  map uv }  roughness image "wood.png" } }
+        sphere { center 0 0.5 -1  material { emission 0.2 0.3 0.1  emission_strength (u)  coat 1 } }
+        plane { material { normal_map image "wood.png"  normal_scale (p.x)  bump soft  bump_scale (0.1 * p.z)  ior (1 + v) } }""",
     "lens": """
         camera other { position 0 2 5  look_at 0 0 0  projection fisheye  fov 200  shift 0.1 0 }
         sphere { center 1 0.5 0  material { color dots { map uv  scale 0.1 } } }""",
@@ -162,6 +169,21 @@ class Textures(unittest.TestCase):
         for words in (["texture"], ["texture", "checker"], ["sky", "sun"]):
             done = run("help", *words)
             self.assertEqual(done.returncode, 0, done.stderr.decode())
+
+    def test_bumps_of_an_mtl_file(self):
+        """Grey heights with the height that -bm says, and normals in colour that lean as much."""
+        (self.folder / "grey.png").write_bytes(png(8, 8, lambda x, y: (32 * (x % 3 + y % 2),)))
+        (self.folder / "a.obj").write_text(
+            "mtllib a.mtl\nusemtl m\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
+        own = LIGHT + 'mesh { file "a.obj"  %s }'
+        for bump, words in (("-bm 0.2 grey.png", 'bump image "grey.png"  bump_scale 0.2'),
+                            ("-bm 0.5 wood.png", 'normal_map image "wood.png"  normal_scale 0.5'),
+                            ("wood.png", 'normal_map image "wood.png"'), ("grey.png", "")):
+            with self.subTest(bump):
+                (self.folder / "a.mtl").write_text(f"newmtl m\nKd 0.5 0.5 0.5\nmap_bump {bump}\n")
+                told = run("check", self.write(own % "")).stderr.decode()
+                self.assertEqual("does not say with -bm" in told, bump == "grey.png", told)
+                self.assertEqual(self.render(self.write(own % "")), self.render(self.write(own % f"material {{ color 0.5  {words} }}")))
 
 
 if __name__ == "__main__":

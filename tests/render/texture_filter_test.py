@@ -54,13 +54,13 @@ PATTERN = """
 camera { position 0 1 5  look_at 0 0.6 0  fov 50 }
 render { ambient 1 }
 background { color 0.5 }
-plane { material { color %s { a 1  b 0  scale 0.5 } } }
+plane { material { color %s { a 1  b 0  scale %s } } }
 """
 
 
 class Far(unittest.TestCase):
     def test_patterns_are_their_averages(self):
-        for pattern in ("dots", "wood", "brick", "cells"):
+        for pattern in (("dots", 0.5), ("wood", "0.2  rotate 90 0 0"), ("brick", 0.5), ("cells", 0.5)):
             with self.subTest(pattern):
                 self.assertLess(mean_difference(PATTERN % pattern, samples=64), 2 / 255)
 

@@ -193,6 +193,9 @@ TEST_CASE("a formula's program computes what the evaluator computes", "[textures
       const TexturePoint point = some_point(engine);
       const auto expected = formula.evaluated(point);
       const Vector3d found = compiled->program.run(point);
+      ExpressionProgram chained = compiled->program;
+      chain(chained);
+      REQUIRE(chained.run(point) == found);
       REQUIRE(std::isfinite(found.x + found.y + found.z));
       if (!expected) continue;
       ++compared;

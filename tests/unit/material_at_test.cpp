@@ -77,6 +77,11 @@ TEST_CASE("textures stand in for a material's values, within their ranges") {
     t.anisotropy = constant(-0.5f, -0.5f, -0.5f);
     t.coat = constant(3, 3, 3);
     t.alpha = constant(0.75f, 0.75f, 0.75f);
+    t.ior = constant(0.2f, 0.2f, 0.2f);
+    t.attenuation_color = constant(0.5f, 1.5f, -1);
+    t.attenuation_distance = constant(50, 50, 50);
+    t.eta = constant(0, 1.5f, 1000);
+    t.k = constant(-1, 3, std::nanf(""));
   });
   TexturePoint point;
   point.uv = {0.25f, 0};
@@ -88,6 +93,12 @@ TEST_CASE("textures stand in for a material's values, within their ranges") {
   CHECK(at.anisotropy == -0.5f);
   CHECK(at.coat == 1);
   CHECK(at.alpha == 0.75f);
+  CHECK(at.ior == 1);
+  CHECK(at.attenuation_color == Color3f(0.5f, 1, 0));
+  CHECK(at.attenuation_distance == 50);
+  REQUIRE(at.conductor);
+  CHECK(at.conductor->eta == Vector3f(0.01f, 1.5f, 100));
+  CHECK(at.conductor->k == Vector3f(0, 3, 0));
   CHECK(alpha_at(material, point) == 0.75f);
   CHECK(at.shininess == material.shininess);
 }

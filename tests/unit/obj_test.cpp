@@ -291,6 +291,7 @@ TEST_CASE("MTL: every word that we know") {
   REQUIRE(a.map(Map::kColor) == "wood.png");
   REQUIRE(a.map(Map::kAlpha) == "leaf.png");
   REQUIRE(a.map(Map::kBump) == "bump map.png");
+  REQUIRE(a.bump_scale == 0.3f);
   REQUIRE(a.map(Map::kNormal) == "textures/n.png");
   REQUIRE(a.map(Map::kEmission) == "glow.png");
   REQUIRE(a.map(Map::kRoughness) == "rough.png");
@@ -311,6 +312,8 @@ TEST_CASE("MTL: options of maps are skipped, whatever the number of their values
       "64.png");
   REQUIRE(material_of("map_Kd -colorspace sRGB -mm 0 1 -blendu off -type sphere my file.jpg \r\n")
               .map(MeshData::NamedMaterial::Map::kColor) == "my file.jpg");
+  REQUIRE_FALSE(material_of("bump a.png\n").bump_scale);
+  REQUIRE(material_of("bump -bm -2 -o 1 2 a.png\n").bump_scale == -2.0f);
   REQUIRE(material_of("bump -bm\n").map(MeshData::NamedMaterial::Map::kBump).empty());
 }
 

@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -186,10 +187,39 @@ Bytes jpeg_of(int width, int height, int channels, const std::function<int(int, 
   return out;
 }
 
-Bytes radiance_of(const std::string& size_line, const Bytes& pixels) {
+Bytes radiance_of(const std::string& size_line, const Bytes& pixels, const std::string& more = {}) {
   Bytes out;
-  put(out, "#?RADIANCE\n# a remark\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n" + size_line + "\n");
+  put(out, "#?RADIANCE\n# a remark\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n" + more + "\n" + size_line + "\n");
   out.insert(out.end(), pixels.begin(), pixels.end());
+  return out;
+}
+
+/// A JPEG's marker with the tag Orientation behind one that says nothing about it.
+Bytes exif_of(int orientation, bool is_big_endian) {
+  Bytes tiff;
+  const auto number = [&](std::uint32_t value, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t byte = is_big_endian ? size - 1 - i : i;
+      tiff.push_back(static_cast<std::uint8_t>(value >> 8 * byte));
+    }
+  };
+  put(tiff, is_big_endian ? "MM" : "II");
+  number(42, 2);
+  number(8, 4);
+  number(2, 2);
+  for (const auto& [tag, value] : {std::pair<std::uint32_t, int>{0x0103, 6}, {0x0112, orientation}}) {
+    number(tag, 2);
+    number(3, 2);
+    number(1, 4);
+    number(static_cast<std::uint32_t>(value), 2);
+    number(0, 2);
+  }
+  number(0, 4);
+  const std::size_t length = tiff.size() + 8;
+  Bytes out = {0xFF, 0xE1, static_cast<std::uint8_t>(length >> 8U),
+               static_cast<std::uint8_t>(length & 0xFFU)};
+  put(out, std::string("Exif\0\0", 6));
+  out.insert(out.end(), tiff.begin(), tiff.end());
   return out;
 }
 
@@ -324,6 +354,86 @@ TEST_CASE("Radiance HDR is read from every side") {
   CHECK(reds("-X 2 -Y 3") == "2:415263");
   CHECK(reds("+X 2 +Y 3") == "2:362514");
   CHECK(reds("-X 2 +Y 3") == "2:635241");
+}
+
+TEST_CASE("what Radiance HDR's pixels were multiplied with is undone") {
+  const Bytes pixel = {128, 64, 32, 129};
+  const auto read = [&](const std::string& more) {
+    return raytracer::to_floats(raytracer::read_radiance(radiance_of("-Y 1 +X 1", pixel, more)));
+  };
+  CHECK(read("PIXASPECT=2\nVIEW=-vtv -vh 45\n") == std::vector<float>{1, 0.5f, 0.25f});
+  CHECK(read("EXPOSURE=4\n") == std::vector<float>{0.25f, 0.125f, 0.0625f});
+  CHECK(read("EXPOSURE= 4.0e0\nEXPOSURE=0.5\n") == std::vector<float>{0.5f, 0.25f, 0.125f});
+  CHECK(read("COLORCORR=0.5 1 2\nEXPOSURE=2\n") == std::vector<float>{1, 0.25f, 0.0625f});
+  for (const char* wrong : {"EXPOSURE=0\n", "EXPOSURE=\n", "EXPOSURE=-1\n", "EXPOSURE=nan\n",
+                            "EXPOSURE=1e-40\n", "EXPOSURE=inf\n", "COLORCORR=1 1\n"}) {
+    const std::string name(wrong, std::string(wrong).find('='));
+    const std::string told = error_of([&] { read(wrong); });
+    INFO(told);
+    CHECK(told.find("'" + name) != std::string::npos);
+  }
+}
+
+TEST_CASE("a photograph stands upright however the camera was held") {
+  // Flat fields, which the format keeps: the picture upright is 16 x 8, bright to the right, less so upwards.
+  const auto upright = [](int x, int y) { return (x < 8 ? 40 : 160) + (y < 4 ? 60 : 0); };
+  // Of each orientation the stored place of the picture's (x, y), as in the tables of the standard.
+  using Place = std::array<int, 2>;
+  const std::function<Place(int, int)> picture_at[] = {
+      [](int c, int r) { return Place{c, r}; },          [](int c, int r) { return Place{15 - c, r}; },
+      [](int c, int r) { return Place{15 - c, 7 - r}; }, [](int c, int r) { return Place{c, 7 - r}; },
+      [](int c, int r) { return Place{r, c}; },          [](int c, int r) { return Place{15 - r, c}; },
+      [](int c, int r) { return Place{15 - r, 7 - c}; }, [](int c, int r) { return Place{r, 7 - c}; },
+  };
+  for (const bool is_big_endian : {false, true}) {
+    for (int orientation = 1; orientation <= 8; ++orientation) {
+      CAPTURE(orientation, is_big_endian);
+      const bool is_sideways = orientation > 4;
+      Bytes file = jpeg_of(is_sideways ? 8 : 16, is_sideways ? 16 : 8, 1, [&](int column, int row, int) {
+        const Place place = picture_at[orientation - 1](column, row);
+        return upright(place[0], place[1]);
+      });
+      const Bytes exif = exif_of(orientation, is_big_endian);
+      file.insert(file.begin() + 2, exif.begin(), exif.end());
+      const Picture picture = raytracer::read_jpeg(file);
+      REQUIRE(picture.width == 16);
+      REQUIRE(picture.height == 8);
+      float worst = 0;
+      for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 16; ++x) {
+          worst =
+              std::max(worst, std::abs(255 * stored(picture, x, y, 0) - static_cast<float>(upright(x, y))));
+        }
+      }
+      CHECK(worst < 8);
+    }
+  }
+}
+
+TEST_CASE("an orientation that makes no sense is none") {
+  const auto size_with = [](const Bytes& exif) {
+    Bytes file = jpeg_of(16, 8, 1, [](int, int, int) { return 100; });
+    file.insert(file.begin() + 2, exif.begin(), exif.end());
+    const Picture picture = raytracer::read_jpeg(file);
+    return picture.width;
+  };
+  CHECK(size_with(exif_of(6, false)) == 8);
+  CHECK(size_with(exif_of(0, false)) == 16);
+  CHECK(size_with(exif_of(9, true)) == 16);
+  const Bytes sound = exif_of(6, false);
+  for (std::size_t end = 4; end < sound.size(); ++end) {
+    Bytes cut(sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(end));
+    cut[2] = 0;
+    cut[3] = static_cast<std::uint8_t>(end - 2);
+    const int width = size_with(cut);
+    CHECK((width == 16 || width == 8));
+  }
+  for (std::size_t at = 4; at < sound.size(); ++at) {
+    Bytes changed = sound;
+    changed[at] = 255;
+    const int width = size_with(changed);
+    CHECK((width == 16 || width == 8));
+  }
 }
 
 TEST_CASE("an EXR that was written is read back") {
