@@ -59,6 +59,9 @@ struct ShapeSample {
 };
 
 class TriangleMesh;
+namespace shapes {
+struct Parallelogram;
+}
 struct RayPacket;
 struct HitPacket;
 struct RayBlock;
@@ -97,6 +100,9 @@ class Shape {
 
   /// The shape as native triangles for the accelerator; null: it is asked by is_hit().
   virtual const TriangleMesh* as_mesh() const { return nullptr; }
+
+  /// The shape as the one flat part with four corners that it is chosen from; null: it is something else.
+  virtual const shapes::Parallelogram* as_parallelogram() const { return nullptr; }
 
   // --- for shapes that shine -------------------------------------------------------------------------------
 

@@ -6,33 +6,33 @@
 #include <optional>
 
 #include "core/hash.hpp"
+#include "integrators/weights.hpp"
 #include "scene/any_material.hpp"
+#include "shapes/hit_block.hpp"
 
 namespace raytracer {
 namespace {
 
-// The pairs of PathPoints that each bounce takes, after those of the camera.
+// The pairs of PathPoints that each bounce takes, after those of the camera: for a light, a lobe and a
+// light's number, a direction, the roulette.
 constexpr std::uint32_t kCameraPairs = 2, kPairsPerBounce = 4;
 
+// Most of the noise of matt rooms is in where the first two directions and the light that is looked at after
+// the first of them meet: the first direction is spread together with both of the others, which leaves a
+// fifth less of it.
+constexpr std::uint32_t kFirstDirection = kCameraPairs + 2;
+constexpr std::array<bool, kPairsPerBounce> kAreCompanions = {true, false, true, false};  // at bounce 1
+
 // From here on the roulette decides whether a path is worth following, once it is weaker than this. Matt
-// rooms are a tenth more efficient than with 1 in its place, glass and metal half as much again: light that a
-// few paths in the dark find is what is noisy.
+// rooms are a tenth more efficient than with 1 in its place. Where glass or mirrors gather light that only
+// few paths find, these must not count for many: a fifth of the noise of such scenes is worth a tenth of the
+// time.
 constexpr int kFirstRoulette = 3;
-constexpr float kWeak = 0.25F;
+constexpr float kWeak = 0.25F, kWeakNearGlass = 0.1F;
 
 float largest(const Color3f& c) { return std::max({c.x, c.y, c.z}); }
 
 bool is_black(const Color3f& c) { return !(c.x > 0 || c.y > 0 || c.z > 0); }
-
-// The power heuristic with exponent 2 (Veach 1997, section 9.2.4): the weight of a choice with density a that
-// another strategy would have made with density b.
-float power_heuristic(float a, float b) {
-  if (!(b > 0)) return 1;
-  if (!(a > 0)) return 0;
-  // As a ratio: the squares of large densities leave the range of float.
-  const float ratio = b / a;
-  return 1 / (1 + ratio * ratio);
-}
 
 // The weight of light that the material's choice, of density `chosen`, has met, and that the lights would
 // have chosen with density `by_lights`.
@@ -41,8 +41,19 @@ float weight_of_met(Sampling sampling, float chosen, float by_lights) {
   return sampling == Sampling::kLights ? 0 : power_heuristic(chosen, by_lights);
 }
 
+bool is_hidden_light(const Material& material) { return !material.is_visible && material.is_area_light; }
+
 bool is_cutout(const Material& material) {
   return material.alpha < 1 || (material.textures != nullptr && material.textures->alpha != nullptr);
+}
+
+// Whether it sends light on that no shadow ray can find.
+bool gathers_light(const Material& material) {
+  constexpr float kSmooth = 0.15F;
+  const bool is_smooth_metal = material.metallic > 0 && material.roughness < kSmooth;
+  const MaterialTextures* textures = material.textures.get();
+  return material.transmission > 0 || material.shininess > 0 || is_smooth_metal ||
+         (textures != nullptr && (textures->transmission || textures->shininess));
 }
 
 // Whether the ray meets the surface from behind.
@@ -95,7 +106,9 @@ Media media_at(const Scene& scene, const Vector3f& position) {
 
 PathWorld::PathWorld(const Scene& scene)
     : has_cutouts(any_material(scene.description(), is_cutout)),
-      has_media(any_material(scene.description(), has_inside)) {
+      has_media(any_material(scene.description(), has_inside)),
+      has_hidden_lights(any_material(scene.description(), is_hidden_light)),
+      weak(any_material(scene.description(), gathers_light) ? kWeakNearGlass : kWeak) {
   if (has_media) media = media_at(scene, scene.camera().position());
 }
 
@@ -156,7 +169,9 @@ PathTracer::PathTracer(const Scene& scene, const PathSettings& settings, const P
       media_(world.media),
       lights_(scene.lights()),
       has_cutouts_(world.has_cutouts),
-      has_media_(world.has_media) {}
+      has_media_(world.has_media),
+      has_hidden_lights_(world.has_hidden_lights),
+      weak_(world.weak) {}
 
 void PathTracer::trace(std::span<const Ray3f> rays, std::span<const RayCone> cones,
                        std::span<const PathNumber> numbers, std::span<Color3f> colors) {
@@ -184,7 +199,11 @@ void PathTracer::draw_points(int depth) {
                                                          &chance_points_};
   for (std::uint32_t i = 0; i < kPairsPerBounce; ++i) {
     pairs[i]->resize(paths_.size());
-    points_.fill(first + i, numbers_, *pairs[i]);
+    if (depth == 1 && kAreCompanions[i]) {
+      points_.fill_companion(kFirstDirection, i, numbers_, *pairs[i]);
+    } else {
+      points_.fill(first + i, numbers_, *pairs[i]);
+    }
   }
 }
 
@@ -193,16 +212,20 @@ void PathTracer::find_hits(int depth) {
   const std::size_t count = paths_.size();
   const Coherence coherence = depth == 0 ? Coherence::kCoherent : Coherence::kIncoherent;
   ray_count_ += count;
-  hits_.assign(count, Hit{});
+  hits_.resize(count);
   is_hit_.resize(count);
-  std::array<Ray3f, kMostRays> rays;
-  for (std::size_t first = 0; first < count; first += kMostRays) {
-    const std::size_t size = std::min(kMostRays, count - first);
-    for (std::size_t i = 0; i < size; ++i) rays[i] = paths_[first + i].ray;
-    const std::uint32_t found =
-        scene_.is_hit(std::span(rays).first(size), std::span(hits_).subspan(first, size), coherence);
-    for (std::size_t i = 0; i < size; ++i) is_hit_[first + i] = found >> i & 1U;
+  RayBlock rays{};
+  HitBlock hits;
+  for (std::size_t first = 0; first < count; first += kBlockSize) {
+    const std::size_t size = std::min<std::size_t>(kBlockSize, count - first);
+    for (std::size_t i = 0; i < size; ++i) rays.set(static_cast<int>(i), paths_[first + i].ray);
+    const BlockMask found = scene_.is_hit(rays, BlockMask::first(size), hits, coherence);
+    for (std::size_t i = 0; i < size; ++i) {
+      is_hit_[first + i] = found.has(static_cast<int>(i)) ? 1 : 0;
+      hits_[first + i] = hits.at(static_cast<int>(i));
+    }
   }
+  if (!has_cutouts_ && !(has_hidden_lights_ && depth == 0)) return;
   for (std::uint32_t i = 0; i < count; ++i) pass_through(paths_[i], i, depth);
 }
 
@@ -220,7 +243,7 @@ void PathTracer::pass_through(Path& path, std::uint32_t index, int depth) {
 bool PathTracer::is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const {
   const Hit& hit = hits_[index];
   const Material& material = scene_.material_of(hit);
-  if (!material.is_visible && material.is_area_light && depth == 0) return true;
+  if (is_hidden_light(material) && depth == 0) return true;
   if (!has_cutouts_ || !is_cutout(material)) return false;
   // Who has come into glass by a hole sees none of it; who has come in through the glass sees all of it.
   if (has_inside(material) && leaves(scene_, path.ray, hit)) return !media_of_[index].contains(&material);
@@ -231,19 +254,88 @@ bool PathTracer::is_passed(const Path& path, std::uint32_t index, int depth, std
 }
 
 void PathTracer::shade(int depth) {
-  std::size_t kept = 0;
   waiting_.count = 0;
   for (std::uint32_t i = 0; i < paths_.size(); ++i) {
     if (is_hit_[i] == 0) {
       add_sky(paths_[i], depth);
-    } else if (shade_hit(paths_[i], i, depth)) {
-      if (kept != i) move_path(i, kept);
-      ++kept;
+    } else {
+      shade_hit(i, depth);
     }
   }
+  if (matt_.count > 0) shade_matt(depth);
   add_unoccluded();
+  std::size_t kept = 0;
+  for (std::uint32_t i = 0; i < paths_.size(); ++i) {
+    if (is_hit_[i] == 0) continue;
+    if (kept != i) move_path(i, kept);
+    ++kept;
+  }
   paths_.resize(kept);
   numbers_.resize(kept);
+}
+
+// Where all that there is to a vertex is a matt surface, it waits for others like it.
+void PathTracer::shade_hit(std::uint32_t index, int depth) {
+  Path& path = paths_[index];
+  const Hit& hit = hits_[index];
+  const Material& material = scene_.material_of(hit);
+  const SurfacePoint surface = raytracer::surface_at(scene_, path.ray, hit);
+  const bool is_plain = !has_cutouts_ && depth < settings_.bounces && is_matt(material) &&
+                        material.textures == nullptr && !material.is_emissive() && !material.is_area_light &&
+                        !scene_.has_vertex_colors() && surface.shading_normal == surface.normal &&
+                        (!has_media_ || media_of_[index].innermost() == nullptr);
+  if (!is_plain) {
+    is_hit_[index] = shade_any(path, material, surface, index, depth) ? 1 : 0;
+    return;
+  }
+  if (!cones_.empty()) {
+    cones_[index] = cones_[index].at(hit.t * glm::length(path.ray.direction));
+  }
+  const auto lane = static_cast<int>(matt_.count);
+  matt_.add(index, surface, path.ray.direction);
+  matt_.offset[lane] = scene_.description().epsilon.value_or(surface.position_error);
+  matt_.color.set(lane, material.color);
+  matt_.throughput.set(lane, path.throughput);
+  matt_.lights.from.u[lane] = light_points_[index].x;
+  matt_.lights.from.v[lane] = light_points_[index].y;
+  matt_.lights.u_light[lane] = choice_points_[index].x;
+  matt_.u[lane] = scatter_points_[index].x;
+  matt_.v[lane] = scatter_points_[index].y;
+  if (matt_.count == MattVertices::kSize) shade_matt(depth);
+}
+
+// Does for those that wait what shade_any() does for one.
+void PathTracer::shade_matt(int depth) {
+  const auto count = static_cast<int>(matt_.count);
+  matt_.lights.count = matt_.count;
+  lights_.sample(matt_.lights, light_samples_);
+  matt_.find_light(light_samples_, settings_.sampling);
+  for (int i = 0; i < count; ++i) {
+    if (matt_.is_lit[i] == 0) continue;
+    const LightSamples& to = light_samples_;
+    LightSample light;
+    light.is_far = to.is_far[i] != 0;
+    light.direction = {to.direction_x[i], to.direction_y[i], to.direction_z[i]};
+    light.target = {to.target_x[i], to.target_y[i], to.target_z[i]};
+    let_wait(light.shadow_ray(matt_.start.at(i)), matt_.light.at(i), paths_[matt_.path[i]].slot, nullptr,
+             depth);
+  }
+  matt_.scatter();
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t index = matt_.path[i];
+    Path& path = paths_[index];
+    const Vector3f direction = matt_.direction.at(i), position = matt_.position.at(i);
+    path.throughput = matt_.throughput.at(i);
+    path.pdf = matt_.pdf[i];
+    path.from = position;
+    path.from_normal = matt_.side[i] * matt_.normal.at(i);
+    path.ray = {position + matt_.side[i] * matt_.offset[i] * matt_.normal.at(i), direction};
+    if (!cones_.empty() && path.pdf > 0) cones_[index].scatter(path.pdf);
+    const float survival = path.pdf > 0 ? roulette(path, depth, chance_points_[index].x) : 0.0F;
+    path.throughput *= survival;
+    is_hit_[index] = survival > 0 ? 1 : 0;
+  }
+  matt_.count = 0;
 }
 
 void PathTracer::move_path(std::size_t from, std::size_t to) {
@@ -254,10 +346,10 @@ void PathTracer::move_path(std::size_t from, std::size_t to) {
 }
 
 // The light of one vertex; false where the path ends there.
-bool PathTracer::shade_hit(Path& path, std::uint32_t index, int depth) {
+bool PathTracer::shade_any(Path& path, const Material& material, const SurfacePoint& surface,
+                           std::uint32_t index, int depth) {
   const Hit& hit = hits_[index];
-  const Material& material = scene_.material_of(hit);
-  Vertex vertex{hit, material, &material, raytracer::surface_at(scene_, path.ray, hit), {}, {}, {}, {}};
+  Vertex vertex{hit, material, &material, surface, {}, {}, {}, {}};
   const float length = glm::length(path.ray.direction);
   vertex.out = -path.ray.direction / length;
   const bool is_outside = glm::dot(vertex.surface.normal, vertex.out) > 0;
@@ -353,20 +445,29 @@ void PathTracer::add_direct_light(const Path& path, const Vertex& vertex, const 
   if (!light.is_delta && settings_.sampling == Sampling::kBoth) {
     weight = power_heuristic(light.pdf, chosen);
   }
-  const std::size_t i = waiting_.count++;
-  waiting_.rays[i] = light.shadow_ray(vertex.shadow_position(light.direction, scene_.description().epsilon));
-  // Multiplied in this order nothing overflows that is not too large itself.
-  waiting_.light[i] = path.throughput * value * (weight / light.pdf) * light.radiance;
-  waiting_.slot[i] = path.slot;
+  Media media;
   if (has_cutouts_ && has_media_) {
-    waiting_.media[i] = media_of_[index];
-    if (glm::dot(light.direction, vertex.facing) < 0) vertex.cross(light.direction, waiting_.media[i]);
+    media = media_of_[index];
+    if (glm::dot(light.direction, vertex.facing) < 0) vertex.cross(light.direction, media);
   }
+  // Multiplied in this order nothing overflows that is not too large itself.
+  let_wait(light.shadow_ray(vertex.shadow_position(light.direction, scene_.description().epsilon)),
+           path.throughput * value * (weight / light.pdf) * light.radiance, path.slot, &media, depth);
+}
+
+// Until there is a packet of shadow rays; `media` may be null where there are no cut-outs.
+void PathTracer::let_wait(const Ray3f& ray, Color3f light, std::uint32_t slot, const Media* media,
+                          int depth) {
   if (depth > 0 && settings_.clamp_indirect > 0) {
-    const float most = largest(waiting_.light[i]);
-    if (most > settings_.clamp_indirect) waiting_.light[i] *= settings_.clamp_indirect / most;
+    const float most = largest(light);
+    if (most > settings_.clamp_indirect) light *= settings_.clamp_indirect / most;
   }
-  if (waiting_.count == kMostRays) add_unoccluded();
+  const std::size_t i = waiting_.count++;
+  waiting_.rays.set(static_cast<int>(i), ray);
+  waiting_.light[i] = light;
+  waiting_.slot[i] = slot;
+  if (has_cutouts_ && media != nullptr) waiting_.media[i] = *media;
+  if (waiting_.count == kBlockSize) add_unoccluded();
 }
 
 // Chooses where the path goes on; false where it ends.
@@ -397,7 +498,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
 float PathTracer::roulette(const Path& path, int depth, float u) const {
   const float strength = largest(path.throughput);
   if (!(strength > 0) || !(strength < kInfinity)) return 0;
-  const float survival = strength / (kWeak * path.radiance_scale);
+  const float survival = strength / (weak_ * path.radiance_scale);
   if (depth < kFirstRoulette || survival >= 1) return 1;
   return u < survival ? 1 / survival : 0;
 }
@@ -418,13 +519,14 @@ void PathTracer::add_unoccluded() {
   ray_count_ += count;
   if (has_cutouts_) {
     for (std::size_t i = 0; i < count; ++i) {
-      add(waiting_.slot[i], share_seen(waiting_.rays[i], waiting_.media[i]) * waiting_.light[i], 0);
+      add(waiting_.slot[i],
+          share_seen(waiting_.rays.ray(static_cast<int>(i)), waiting_.media[i]) * waiting_.light[i], 0);
     }
     return;
   }
-  const std::uint32_t hidden = scene_.is_occluded(std::span(waiting_.rays, count), Coherence::kIncoherent);
+  const BlockMask hidden = scene_.is_occluded(waiting_.rays, BlockMask::first(count), Coherence::kIncoherent);
   for (std::size_t i = 0; i < count; ++i) {
-    if ((hidden >> i & 1U) == 0) add(waiting_.slot[i], waiting_.light[i], 0);
+    if (!hidden.has(static_cast<int>(i))) add(waiting_.slot[i], waiting_.light[i], 0);
   }
 }
 

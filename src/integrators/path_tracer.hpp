@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "integrators/matt_vertices.hpp"
 #include "materials/bsdf.hpp"
 #include "materials/media.hpp"
 #include "raytracer/method.hpp"
@@ -31,9 +32,11 @@ Media media_at(const Scene& scene, const Vector3f& position);
 struct PathWorld {
   explicit PathWorld(const Scene& scene);
 
-  bool has_cutouts;  ///< whether any material is there for some rays only
-  bool has_media;    ///< whether any has an inside
-  Media media;       ///< around the eye
+  bool has_cutouts;        ///< whether any material is there for some rays only
+  bool has_media;          ///< whether any has an inside
+  bool has_hidden_lights;  ///< whether any area light is not seen by the camera
+  float weak;              ///< paths of less throughput may end
+  Media media;             ///< around the eye
 };
 
 /// Follows many paths at once, bounce by bounce, so that the shadow rays of every depth are traced in
@@ -66,10 +69,10 @@ class PathTracer {
   // Shadow rays that wait until they are a packet, and what each lets pass.
   struct ShadowRays {
     std::size_t count = 0;
-    Ray3f rays[kMostRays];
-    Color3f light[kMostRays];
-    std::uint32_t slot[kMostRays];
-    Media media[kMostRays];  // around their origins, where cut-outs and glass are about
+    RayBlock rays{};
+    Color3f light[kBlockSize];
+    std::uint32_t slot[kBlockSize];
+    Media media[kBlockSize];  // around their origins, where cut-outs and glass are about
   };
 
   // A path's latest hit, with all that shading needs.
@@ -80,11 +83,15 @@ class PathTracer {
   bool is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const;
   void shade(int depth);
   void move_path(std::size_t from, std::size_t to);
-  bool shade_hit(Path& path, std::uint32_t index, int depth);
+  void shade_hit(std::uint32_t index, int depth);
+  void shade_matt(int depth);
+  bool shade_any(Path& path, const Material& material, const SurfacePoint& surface, std::uint32_t index,
+                 int depth);
   void add_sky(const Path& path, int depth);
   void add_emission(const Path& path, const Vertex& vertex, int depth);
   void add_direct_light(const Path& path, const Vertex& vertex, const Bsdf& bsdf, std::uint32_t index,
                         int depth);
+  void let_wait(const Ray3f& ray, Color3f light, std::uint32_t slot, const Media* media, int depth);
   bool scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std::uint32_t index, int depth);
   float roulette(const Path& path, int depth, float u) const;
   void add(std::uint32_t slot, Color3f light, int depth);
@@ -97,7 +104,8 @@ class PathTracer {
   const PathPoints& points_;
   const Media& media_;
   const LightSet& lights_;
-  bool has_cutouts_, has_media_;
+  bool has_cutouts_, has_media_, has_hidden_lights_;
+  float weak_;
   std::uint64_t ray_count_ = 0;
 
   std::vector<Path> paths_;  // those that go on; compacted after every bounce
@@ -106,10 +114,12 @@ class PathTracer {
   std::vector<RayCone> cones_;
   std::vector<Media> media_of_;
   std::vector<Hit> hits_;
-  std::vector<std::uint8_t> is_hit_;
+  std::vector<std::uint8_t> is_hit_;  // once it is shaded: whether its path goes on
   std::vector<Vector2f> light_points_, choice_points_, scatter_points_, chance_points_;
   std::span<Color3f> colors_;
   ShadowRays waiting_;
+  MattVertices matt_;  // those that wait to be shaded
+  LightSamples light_samples_{};
 };
 
 }  // namespace raytracer

@@ -11,6 +11,21 @@
 
 namespace raytracer {
 
+/// A colour of a surface: each channel within 0 and 1, what is not a number 0.
+inline Color3f color_share(const Color3f& color) {
+  const auto share = [](float x) {
+    const float positive = x > 0 ? x : 0.0F;
+    return positive < 1 ? positive : 1.0F;
+  };
+  return {share(color.x), share(color.y), share(color.z)};
+}
+
+/// Whether a material scatters light as a matt surface and does nothing else with it.
+inline bool is_matt(const MaterialValues& material) {
+  return !(material.shininess > 0) && !material.has_layer && !(material.metallic > 0) &&
+         !(material.transmission > 0) && !(material.coat > 0);
+}
+
 /// Where a Bsdf stands. All unit length, world space. `normal` and `tangent` need not be orthogonal.
 struct BsdfFrame {
   Vector3f geometric_normal{0, 1, 0};  ///< of the surface: outwards on closed shapes, whichever side is seen

@@ -18,16 +18,14 @@ constexpr float kCoatIor = 1.5F;
 
 // Not a number counts as 0.
 float share(float x) { return x > 0 ? std::min(x, 1.0F) : 0.0F; }
-Color3f share(const Color3f& c) { return {share(c.x), share(c.y), share(c.z)}; }
 float index_of_refraction(float x) { return x > 0 ? std::clamp(x, 1e-2F, 1e2F) : 1.0F; }
 
 }  // namespace
 
 Bsdf::Bsdf(const MaterialValues& material, const BsdfFrame& frame)
-    : color_(share(material.color)),
+    : color_(color_share(material.color)),
       is_black_(material.is_area_light),
-      is_matt_(!(material.shininess > 0) && !material.has_layer && !(material.metallic > 0) &&
-               !(material.transmission > 0) && !(material.coat > 0)),
+      is_matt_(is_matt(material)),
       is_delta_(is_black_),
       geometric_normal_(frame.geometric_normal),
       normal_(frame.normal) {

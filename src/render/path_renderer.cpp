@@ -1,5 +1,6 @@
 #include "render/path_renderer.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "render/aim.hpp"
@@ -8,6 +9,10 @@ namespace raytracer {
 namespace {
 
 constexpr float kWhite = 255;
+
+// Samples of one pixel go the same way for longer than those of neighbours do: where they have to find their
+// way through glass that is worth a twentieth of the time.
+constexpr int kSamplesAtOnce = 16, kPathsAtOnce = 1024;
 
 }  // namespace
 
@@ -24,56 +29,85 @@ PathRenderer::PathRenderer(const Scene& scene, const RenderSettings& settings, c
   scene.lights();  // gathered before the threads begin
 }
 
+/// Paths that are followed together, those of a pixel side by side.
+struct PathRenderer::Batch {
+  std::vector<glm::ivec2> pixels;
+  std::vector<PathNumber> numbers;
+  std::vector<Vector2f> places, on_lens;
+  std::vector<Ray3f> rays;
+  std::vector<RayCone> cones;  // none where there are no textures
+  std::vector<Color3f> colors;
+};
+
 std::uint64_t PathRenderer::render(const Tile& tile) const {
   TileSums sums(tile, image_, slice_, settings_.samples);
-  const TilePixels& pixels = sums.pixels();
-  std::vector<Color3f> colors(pixels.size());
-  std::vector<ColorBlock> blocks(pixels.blocks().size());
-  std::vector<Ray3f> rays(pixels.size());
-  std::vector<RayCone> cones(has_textures_ ? pixels.size() : 0);
-  std::vector<PathNumber> numbers(pixels.size());
-  std::vector<Vector2f> places(pixels.size()), on_lens(pixels.size(), Vector2f(0.5F));
-  const bool has_lens = scene_.camera().has_lens();
   PathTracer tracer(scene_, paths_, points_, world_);
-  for (int sample = slice_.first_sample; sample < slice_.end_sample; ++sample) {
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      numbers[i] = points_.number(pixels.at(i).x, pixels.at(i).y, sample);
+  Batch batch;
+  const int at_once = std::clamp(slice_.end_sample - slice_.first_sample, 1, kSamplesAtOnce);
+  const auto pixels_at_once = static_cast<std::size_t>(kPathsAtOnce / at_once);
+  for (std::size_t first = 0; first < sums.pixels().size(); first += pixels_at_once) {
+    const std::size_t end = std::min(first + pixels_at_once, sums.pixels().size());
+    batch.pixels.clear();
+    for (std::size_t i = first; i < end; ++i) batch.pixels.push_back(sums.pixels().at(i));
+    for (int sample = slice_.first_sample; sample < slice_.end_sample; sample += at_once) {
+      set_up(batch, sample, std::min(sample + at_once, slice_.end_sample));
+      tracer.trace(batch.rays, batch.cones, batch.numbers, batch.colors);
+      const std::size_t per_pixel = batch.colors.size() / batch.pixels.size();
+      for (std::size_t i = 0; i < batch.colors.size(); ++i) {
+        sums.add(first + i / per_pixel, batch.colors[i], kWhite);
+      }
     }
-    points_.fill(0, numbers, places);
-    if (has_lens) points_.fill(1, numbers, on_lens);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      rays[i] = camera_ray(scene_, image_, pixels.at(i), places[i], on_lens[i]);
-      if (!has_textures_) continue;
-      cones[i] = camera_cone(scene_, image_, pixels.at(i), places[i], on_lens[i], rays[i], settings_.samples);
-    }
-    tracer.trace(rays, cones, numbers, colors);
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-      blocks[i / kBlockSize].set(static_cast<int>(i % kBlockSize), colors[i]);
-    }
-    sums.add(blocks, kWhite);
   }
   sums.store();
   return tracer.rays();
 }
 
-void PathRenderer::aim(const TilePixels& pixels, std::span<const Vector2f> places,
-                       std::span<const Vector2f> on_lens, std::span<Ray3f> rays) const {
+void PathRenderer::set_up(Batch& batch, int first_sample, int end_sample) const {
+  batch.numbers.clear();
+  for (const glm::ivec2& pixel : batch.pixels) {
+    for (int sample = first_sample; sample < end_sample; ++sample) {
+      batch.numbers.push_back(points_.number(pixel.x, pixel.y, sample));
+    }
+  }
+  const std::size_t count = batch.numbers.size();
+  batch.places.resize(count);
+  batch.on_lens.assign(count, Vector2f(0.5F));
+  batch.rays.resize(count);
+  batch.colors.resize(count);
+  points_.fill(0, batch.numbers, batch.places);
+  if (scene_.camera().has_lens()) points_.fill(1, batch.numbers, batch.on_lens);
+  const auto samples = static_cast<std::size_t>(end_sample - first_sample);
+  aim(batch, samples);
+  if (!has_textures_) return;
+  batch.cones.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    batch.cones[i] = camera_cone(scene_, image_, batch.pixels[i / samples], batch.places[i], batch.on_lens[i],
+                                 batch.rays[i], settings_.samples);
+  }
+}
+
+void PathRenderer::aim(Batch& batch, std::size_t samples) const {
+  const std::size_t count = batch.rays.size();
   if (!scene_.camera().is_pinhole()) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      rays[i] = camera_ray(scene_, image_, pixels.at(i), places[i], on_lens[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      batch.rays[i] =
+          camera_ray(scene_, image_, batch.pixels[i / samples], batch.places[i], batch.on_lens[i]);
     }
     return;
   }
-  for (std::size_t b = 0; b < pixels.blocks().size(); ++b) {
+  for (std::size_t first = 0; first < count; first += kBlockSize) {
+    const std::size_t size = std::min<std::size_t>(kBlockSize, count - first);
+    PixelBlock pixels{};
     WithinPixels within{};
-    const std::size_t first = b * kBlockSize, count = pixels.size_of_block(b);
-    for (std::size_t i = 0; i < count; ++i) {
-      within.x[i] = places[first + i].x;
-      within.y[i] = places[first + i].y;
+    for (std::size_t i = 0; i < size; ++i) {
+      pixels.x[i] = batch.pixels[(first + i) / samples].x;
+      pixels.y[i] = batch.pixels[(first + i) / samples].y;
+      within.x[i] = batch.places[first + i].x;
+      within.y[i] = batch.places[first + i].y;
     }
     RayBlock block;
-    pinhole_rays(scene_.camera(), places_of(pixels.blocks()[b], within, image_), block);
-    for (std::size_t i = 0; i < count; ++i) rays[first + i] = block.ray(static_cast<int>(i));
+    pinhole_rays(scene_.camera(), places_of(pixels, within, image_), block);
+    for (std::size_t i = 0; i < size; ++i) batch.rays[first + i] = block.ray(static_cast<int>(i));
   }
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "integrators/path_tracer.hpp"
 #include "raytracer/render.hpp"
@@ -19,8 +18,10 @@ class PathRenderer {
   std::uint64_t render(const Tile& tile) const;
 
  private:
-  void aim(const TilePixels& pixels, std::span<const Vector2f> places, std::span<const Vector2f> on_lens,
-           std::span<Ray3f> rays) const;
+  struct Batch;
+
+  void set_up(Batch& batch, int first_sample, int end_sample) const;
+  void aim(Batch& batch, std::size_t samples) const;
 
   const Scene& scene_;
   const RenderSettings& settings_;

@@ -63,21 +63,30 @@ TileSums::TileSums(const Tile& tile, Image& image, const Slice& slice, int sampl
   }
 }
 
-void TileSums::add(std::span<const ColorBlock> colors, float scale) {
+float TileSums::limited(float value, float scale) const {
   const float brightest = std::numeric_limits<float>::max() / static_cast<float>(samples_);
-  const auto limited = [&](float value) {
-    const float positive = value > 0 ? scale * value : 0.0F;
-    return positive < brightest ? positive : brightest;
-  };
+  const float positive = value > 0 ? scale * value : 0.0F;
+  return positive < brightest ? positive : brightest;
+}
+
+void TileSums::add(std::span<const ColorBlock> colors, float scale) {
   for (std::size_t b = 0; b < sums_.size(); ++b) {
     ColorBlock& sum = sums_[b];
     const ColorBlock& color = colors[b];
     for (int i = 0; i < kBlockSize; ++i) {
-      sum.x[i] += limited(color.x[i]);
-      sum.y[i] += limited(color.y[i]);
-      sum.z[i] += limited(color.z[i]);
+      sum.x[i] += limited(color.x[i], scale);
+      sum.y[i] += limited(color.y[i], scale);
+      sum.z[i] += limited(color.z[i], scale);
     }
   }
+}
+
+void TileSums::add(std::size_t i, const Color3f& color, float scale) {
+  ColorBlock& sum = sums_[i / kBlockSize];
+  const std::size_t lane = i % kBlockSize;
+  sum.x[lane] += limited(color.x, scale);
+  sum.y[lane] += limited(color.y, scale);
+  sum.z[lane] += limited(color.z, scale);
 }
 
 void TileSums::store() {

@@ -60,11 +60,15 @@ class TileSums {
   /// What is brighter than a picture can hold counts as bright as that; what is no number, or less than
   /// nothing, as nothing.
   void add(std::span<const ColorBlock> colors, float scale);
+  /// Likewise to pixel i alone.
+  void add(std::size_t i, const Color3f& color, float scale);
 
   /// After the last of all samples the sums become means.
   void store();
 
  private:
+  float limited(float value, float scale) const;
+
   Image& image_;
   Slice slice_;
   int samples_;

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "sampling/sobol.hpp"
+#include "sampling/sobol_matrices.hpp"
 
 namespace raytracer {
 
@@ -71,7 +72,7 @@ class PathPoints {
 
   /// The pair `dimension` (0, 1, …) of each path, in [0, 1)^2.
   void fill(std::uint32_t dimension, std::span<const PathNumber> paths, std::span<Vector2f> points) const {
-    const std::uint32_t shuffle = hash_bits(seed_ + 0x9E3779B9U * (dimension + 1));
+    const std::uint32_t shuffle = shuffle_of(dimension);
     const std::uint32_t first = hash_bits(shuffle ^ 0x85EBCA6BU), second = hash_bits(first ^ 0xC2B2AE35U);
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const std::uint32_t index = reverse_bits(sampling::scramble_reversed(paths[i].reversed, shuffle));
@@ -82,7 +83,26 @@ class PathPoints {
     }
   }
 
+  /// Likewise a pair that is spread together with the pair `dimension`. It may have several companions; to
+  /// each other they mean nothing.
+  void fill_companion(std::uint32_t dimension, std::uint32_t companion, std::span<const PathNumber> paths,
+                      std::span<Vector2f> points) const {
+    const std::uint32_t shuffle = shuffle_of(dimension);
+    const std::uint32_t first = hash_bits(shuffle ^ hash_bits(0x27D4EB2FU + companion));
+    const std::uint32_t second = hash_bits(first ^ 0xC2B2AE35U);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const std::uint32_t index = reverse_bits(sampling::scramble_reversed(paths[i].reversed, shuffle));
+      points[i] = {
+          unit_float(reverse_bits(sampling::scramble_reversed(sampling::sobol_companion<0>(index), first))),
+          unit_float(reverse_bits(sampling::scramble_reversed(sampling::sobol_companion<1>(index), second)))};
+    }
+  }
+
  private:
+  std::uint32_t shuffle_of(std::uint32_t dimension) const {
+    return hash_bits(seed_ + 0x9E3779B9U * (dimension + 1));
+  }
+
   std::uint32_t sample_bits_;
   std::uint32_t seed_;
 };

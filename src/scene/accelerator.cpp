@@ -196,7 +196,12 @@ struct Accelerator::Tree {
                : instances[found.instance_id - first_instance()]->finite;
   }
 
-  // Of a big mesh next to nothing is in the processor's cache that the surfaces will be made of.
+  // Of a big mesh next to nothing is in the processor's cache that the surfaces will be made of: first the
+  // numbers of the corners, of all lanes at once, then the corners.
+  [[gnu::always_inline]] void prefetch_numbers(const Found& found) const {
+    if (found.geometry != kAskedShapes)
+      shapes_of(found).meshes[found.geometry - 1]->prefetch_numbers(found.primitive);
+  }
   [[gnu::always_inline]] void prefetch(const Found& found) const {
     if (found.geometry != kAskedShapes)
       shapes_of(found).meshes[found.geometry - 1]->prefetch(found.primitive);
@@ -287,10 +292,16 @@ BlockMask Accelerator::is_hit(const RayBlock& rays, const BlockMask& asked, HitB
   for (int i = 0; i < kBlockSize; ++i) query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   embree::intersect(lanes_within_reach(rays, asked).lane, tree_->scene, query, coherence);
   const RTCHit16& hit = query.hit;
+  const auto found_in = [&](int i) -> Tree::Found {
+    return {query.ray.tfar[i], hit.instID[0][i], hit.geomID[i], hit.primID[i],
+            hit.Ng_x[i],       hit.u[i],         hit.v[i]};
+  };
+  for (int i = 0; i < kBlockSize; ++i) {
+    if (hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) tree_->prefetch_numbers(found_in(i));
+  }
   for (int i = 0; i < kBlockSize; ++i) {
     if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    const Tree::Found lane{query.ray.tfar[i], hit.instID[0][i], hit.geomID[i], hit.primID[i],
-                           hit.Ng_x[i],       hit.u[i],         hit.v[i]};
+    const Tree::Found lane = found_in(i);
     tree_->prefetch(lane);
     Hit nearest = found.has(i) ? hits.at(i) : Hit{};
     tree_->choose(lane, found.has(i), nearest);

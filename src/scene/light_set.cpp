@@ -13,6 +13,7 @@
 #include "lights/illuminate.hpp"
 #include "lights/light_tree.hpp"
 #include "scene/placed_surface.hpp"
+#include "shapes/parallelogram.hpp"
 #include "textures/material_at.hpp"
 
 namespace raytracer {
@@ -204,14 +205,52 @@ double refined(float u, const Vector2f& other) {
   return std::min(static_cast<double>(u) + static_cast<double>(bits) * 0x1p-32 * 0x1p-24, 1 - 0x1p-53);
 }
 
-/// What the shadow ray must stay clear of: the bound at the surface, and the rounding of a ray of this
-/// length.
-Vector3f off_surface(const SurfacePoint& point, const Vector3f& from) {
-  const Vector3f way = from - point.position;
-  const float side = glm::dot(way, point.normal) < 0 ? -1.0F : 1.0F;
-  const float rounding =
-      4 * static_cast<float>(kFloatRounding) * glm::dot(glm::abs(way), glm::abs(point.normal));
-  return point.position + side * (point.position_error + rounding) * point.normal;
+/// Where the shadow ray ends that comes from there: it must stay clear of the bound at the surface, and of
+/// the rounding of a ray of this length.
+Vector3f off_surface(const Vector3f& position, float position_error, const Vector3f& normal,
+                     const Vector3f& from) {
+  const Vector3f way = from - position;
+  const float side = glm::dot(way, normal) < 0 ? -1.0F : 1.0F;
+  const float rounding = 4 * static_cast<float>(kFloatRounding) * glm::dot(glm::abs(way), glm::abs(normal));
+  return position + side * (position_error + rounding) * normal;
+}
+
+constexpr float kLeastDensity = 1e-30F;  // the reciprocal stays in range
+
+/// Of all rooms the plainest, lit by one quad alone.
+struct OnlyQuad {
+  const shapes::Parallelogram* face = nullptr;
+  float position_error = 0;
+  Vector3f normal{0};
+  Color3f radiance{0};
+  bool is_one_sided = false;
+
+  void sample(const LightQueries& queries, LightSamples& samples) const;
+};
+
+// As Parts::sample_emitter() does it.
+void OnlyQuad::sample(const LightQueries& queries, LightSamples& samples) const {
+  shapes::PlacesSeen seen;
+  face->choose(queries.from, seen);
+  LightSamples found;
+  const OnlyQuad quad = *this;
+  for (std::size_t i = 0; i < LightSamples::kSize; ++i) {
+    const Vector3f from(queries.from.x[i], queries.from.y[i], queries.from.z[i]);
+    const Vector3f position(seen.x[i], seen.y[i], seen.z[i]);
+    const Vector3f way = position - from;
+    const float distance = glm::length(way);
+    const Vector3f direction = way / distance;
+    const Vector3f target = off_surface(position, quad.position_error, quad.normal, from);
+    const bool is_seen = !quad.is_one_sided | (glm::dot(quad.normal, way) < 0);
+    const float pdf = ((distance > 0) & (distance < kInfinity) & is_seen) ? seen.pdf[i] : 0.0F;
+    found.direction_x[i] = direction.x, found.direction_y[i] = direction.y;
+    found.direction_z[i] = direction.z;
+    found.target_x[i] = target.x, found.target_y[i] = target.y, found.target_z[i] = target.z;
+    found.red[i] = quad.radiance.x, found.green[i] = quad.radiance.y, found.blue[i] = quad.radiance.z;
+    found.pdf[i] = pdf > kLeastDensity ? pdf : 0.0F;
+    found.is_far[i] = found.is_delta[i] = 0;
+  }
+  samples = found;
 }
 
 }  // namespace
@@ -225,6 +264,7 @@ struct LightSet::Parts {
   std::vector<Light> distant;
   std::vector<double> distant_sums;  // of their strengths, as shares of all: the last is 1
   const Environment* sky = nullptr;
+  OnlyQuad only_quad;  // of nothing else; its face is null where there is more, or something else
 
   // The way from a hit to its emitter: emitter = start + rank of the shape.
   std::vector<std::uint32_t> emitter_of_shape;   // of the scene's own shapes; kNone
@@ -237,6 +277,7 @@ struct LightSet::Parts {
   void gather_own(const SceneDescription& scene, std::vector<LightItem>& items);
   void gather_instances(const SceneDescription& scene, std::vector<LightItem>& items);
   void gather_lights(const SceneDescription& scene, std::vector<LightItem>& items);
+  void look_for_only_quad();
 
   const Placement* placement_of(const Emitter& emitter) const {
     return emitter.placement == kNone ? nullptr : &placements[emitter.placement];
@@ -266,6 +307,19 @@ LightSet::Parts::Parts(const SceneDescription& scene) {
   gather_lights(scene, items);
   tree = LightTree(items);
   if (scene.sky != nullptr && !scene.sky->is_constant()) sky = scene.sky.get();
+  look_for_only_quad();
+}
+
+void LightSet::Parts::look_for_only_quad() {
+  if (emitters.size() != 1 || !local.empty() || !distant.empty() || sky != nullptr || tree.is_empty()) return;
+  const ShiningShape& shining = shapes[emitters[0].shining];
+  const shapes::Parallelogram* face = shining.shape->as_parallelogram();
+  if (face == nullptr || emitters[0].placement != kNone || shining.is_textured) return;
+  // What every point of it has in common, by any of them.
+  const Vector3f above = Vector3f(face->at({0.5, 0.5}) + face->normal * std::sqrt(face->area()));
+  ShapeSample point;
+  if (!shining.shape->sample_part(0, above, Vector2f(0.5F), point)) return;
+  only_quad = {face, point.position_error, point.normal, shining.radiance, shining.is_one_sided};
 }
 
 void LightSet::Parts::gather_own(const SceneDescription& scene, std::vector<LightItem>& items) {
@@ -404,7 +458,7 @@ bool LightSet::Parts::sample_emitter(const Emitter& emitter, const Vector3f& pos
   const float distance = glm::length(way);
   if (!(distance > 0 && distance < kInfinity)) return false;
   sample.direction = way / distance;
-  sample.target = off_surface(point, position);
+  sample.target = off_surface(point.position, point.position_error, point.normal, position);
   sample.radiance = shining.radiance;
   sample.pdf = static_cast<float>(density);
   if (shining.is_textured) {
@@ -498,8 +552,26 @@ bool LightSet::sample(const Vector3f& position, const Vector3f& normal, float u_
     return false;
   }
   sample.pdf = static_cast<float>(static_cast<double>(sample.pdf) * probability);
-  constexpr float kLeast = 1e-30F;  // the reciprocal stays in range
-  return sample.pdf > kLeast && sample.pdf < kInfinity;
+  return sample.pdf > kLeastDensity && sample.pdf < kInfinity;
+}
+
+void LightSet::sample(const LightQueries& queries, LightSamples& samples) const {
+  if (parts_->only_quad.face != nullptr) return parts_->only_quad.sample(queries, samples);
+  const shapes::PlacesToSeeFrom& from = queries.from;
+  for (std::size_t i = 0; i < queries.count; ++i) {
+    LightSample one;
+    const bool is_chosen = sample({from.x[i], from.y[i], from.z[i]},
+                                  {queries.normal_x[i], queries.normal_y[i], queries.normal_z[i]},
+                                  queries.u_light[i], {from.u[i], from.v[i]}, one);
+    samples.direction_x[i] = one.direction.x, samples.direction_y[i] = one.direction.y;
+    samples.direction_z[i] = one.direction.z;
+    samples.target_x[i] = one.target.x, samples.target_y[i] = one.target.y,
+    samples.target_z[i] = one.target.z;
+    samples.red[i] = one.radiance.x, samples.green[i] = one.radiance.y, samples.blue[i] = one.radiance.z;
+    samples.pdf[i] = is_chosen ? one.pdf : 0.0F;
+    samples.is_far[i] = one.is_far ? 1 : 0;
+    samples.is_delta[i] = one.is_delta ? 1 : 0;
+  }
 }
 
 float LightSet::pdf(const Vector3f& position, const Vector3f& normal, const Hit& hit,

@@ -1,9 +1,11 @@
 // All that shines in a scene, and which of it to look at from a point.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "raytracer/scene.hpp"
+#include "shapes/places_seen.hpp"
 
 namespace raytracer {
 
@@ -22,6 +24,24 @@ struct LightSample {
   }
 };
 
+/// What sixteen vertices ask LightSet::sample() at once. Lanes from `count` on hold anything.
+struct LightQueries {
+  static constexpr std::size_t kSize = shapes::PlacesToSeeFrom::kSize;
+  std::size_t count = 0;
+  shapes::PlacesToSeeFrom from{};
+  alignas(64) float normal_x[kSize]{}, normal_y[kSize]{}, normal_z[kSize]{};
+  float u_light[kSize]{};
+};
+
+/// The answers, as LightSample has them; pdf 0: nothing.
+struct LightSamples {
+  static constexpr std::size_t kSize = LightQueries::kSize;
+  alignas(64) float direction_x[kSize], direction_y[kSize], direction_z[kSize];
+  alignas(64) float target_x[kSize], target_y[kSize], target_z[kSize];
+  alignas(64) float red[kSize], green[kSize], blue[kSize], pdf[kSize];
+  alignas(64) std::uint32_t is_far[kSize], is_delta[kSize];  // 0 or 1
+};
+
 /// Immutable. Does not keep the description's shapes: the description must outlive it and not move.
 class LightSet {
  public:
@@ -37,6 +57,9 @@ class LightSet {
   /// own side only; 0 for one that lets light through: all directions count. False: nothing can arrive.
   bool sample(const Vector3f& position, const Vector3f& normal, float u_light, const Vector2f& u,
               LightSample& sample) const;
+
+  /// The very same for sixteen at once.
+  void sample(const LightQueries& queries, LightSamples& samples) const;
 
   /// The density per steradian, choice included, with which sample() from there chooses the direction of
   /// `point`, a hit on a shape that shines. 0 where it never does.

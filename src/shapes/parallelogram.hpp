@@ -1,10 +1,14 @@
 // Flat parts with four corners, seen from somewhere.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "raytracer/shape.hpp"
 #include "shapes/part_sampling.hpp"
+#include "shapes/places_seen.hpp"
+#include "shapes/spherical_rectangle.hpp"
 
 namespace raytracer::shapes {
 
@@ -28,6 +32,8 @@ struct Parallelogram {
     st = {static_cast<double>(u.x), static_cast<double>(u.y)};
     return area_density(from, at(st));
   }
+  /// Likewise for sixteen at once, to the last bit.
+  void choose(const PlacesToSeeFrom& from, PlacesSeen& seen) const;
   /// The density per steradian with which choose() takes the direction of `position`, a point of it.
   float pdf(const Vector3d& from, const Vector3d& position) const {
     return is_near_rectangle(from) ? pdf_near(from, position) : area_density(from, position);
@@ -39,6 +45,8 @@ struct Parallelogram {
     return glm::dot(way, way) < near_squared_;
   }
   float choose_near(const Vector3d& from, const Vector2f& u, glm::dvec2& st) const;
+  void choose_near(const PlacesToSeeFrom& from, const std::array<std::uint32_t, PlacesSeen::kSize>& is_near,
+                   PlacesSeen& seen) const;
   float pdf_near(const Vector3d& from, const Vector3d& position) const;
   float area_density(const Vector3d& from, const Vector3d& position) const {
     // The height of `from` above the plane, free of the rounding of `position`.
@@ -49,6 +57,7 @@ struct Parallelogram {
                           (1 / (area_ * facing)));  // root and quotient at once
   }
 
+  Rectangle rectangle_;  // where near_squared_ > 0
   Vector3d middle_{0.0};
   double area_ = 0;
   double near_squared_ = 0;  // closer to the middle than this it is chosen by directions; 0: no rectangle

@@ -12,7 +12,7 @@ namespace raytracer::shapes {
 /// weighs nothing.
 inline float usable_density(double per_steradian) {
   constexpr double kMost = 1e30;
-  return per_steradian > 0 && per_steradian < kMost ? static_cast<float>(per_steradian) : 0.0f;
+  return ((per_steradian > 0) & (per_steradian < kMost)) ? static_cast<float>(per_steradian) : 0.0f;
 }
 
 /// The density per steradian, as seen from `from`, of a choice that has the density `per_area` at `position`,

@@ -84,6 +84,8 @@ class Quad final : public Shape {
     return detail;
   }
 
+  const shapes::Parallelogram* as_parallelogram() const override { return &face_; }
+
   std::uint32_t part_count() const override { return 1; }
 
   PartExtent part_extent(std::uint32_t) const override {

@@ -2,6 +2,7 @@
 // between pairs.
 #include "sampling/path_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -86,6 +87,37 @@ TEST_CASE("pairs, seeds and pixels have points of their own") {
   CHECK(std::abs(correlation(first, points_of(others, 2, numbers_of_pixel(others, 3, 4, 256)))) < 0.25);
   CHECK(std::abs(correlation(first, points_of(points, 2, neighbours))) < 0.25);
   CHECK(correlation(first, first) > 0.9);
+}
+
+// How many of the 4^4 boxes of a grid in four dimensions hold one of 256 points.
+int boxes_taken(const std::vector<Vector2f>& a, const std::vector<Vector2f>& b) {
+  std::vector<bool> taken(256);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t box = 0;
+    for (const float x : {a[i].x, a[i].y, b[i].x, b[i].y}) box = 4 * box + static_cast<std::size_t>(4 * x);
+    taken[box] = true;
+  }
+  return static_cast<int>(std::count(taken.begin(), taken.end(), true));
+}
+
+TEST_CASE("companions are evenly spread in each dimension and in four") {
+  const PathPoints points(256, 5);
+  for (const auto& [x, y] : {std::pair{0, 0}, {5, 9}, {1919, 1079}}) {
+    const std::vector<PathNumber> numbers = numbers_of_pixel(points, x, y, 256);
+    const std::vector<Vector2f> pair = points_of(points, 4, numbers), other = points_of(points, 5, numbers);
+    // Of boxes that points take at random a share 1 / e stays empty.
+    CHECK(boxes_taken(pair, other) < 190);
+    for (const std::uint32_t companion : {0U, 2U}) {
+      std::vector<Vector2f> beside(numbers.size());
+      points.fill_companion(4, companion, numbers, beside);
+      CHECK(boxes_taken(pair, beside) == 256);
+      for (const int axis : {0, 1}) {
+        std::vector<int> count(256);
+        for (const Vector2f& p : beside) ++count[static_cast<std::size_t>(256 * p[axis])];
+        CHECK(count == std::vector<int>(256, 1));
+      }
+    }
+  }
 }
 
 TEST_CASE("pictures of more than 2^32 samples still get points") {
