@@ -9,6 +9,7 @@
 #include "integrators/weights.hpp"
 #include "scene/any_material.hpp"
 #include "shapes/hit_block.hpp"
+#include "textures/material_at.hpp"
 
 namespace raytracer {
 namespace {
@@ -281,20 +282,25 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
   const Material& material = scene_.material_of(hit);
   const SurfacePoint surface = raytracer::surface_at(scene_, path.ray, hit);
   const bool is_plain = !has_cutouts_ && depth < settings_.bounces && is_matt(material) &&
-                        material.textures == nullptr && !material.is_emissive() && !material.is_area_light &&
-                        !scene_.has_vertex_colors() && surface.shading_normal == surface.normal &&
+                        (material.textures == nullptr || varies_in_color_alone(*material.textures)) &&
+                        !material.is_emissive() && !material.is_area_light && !scene_.has_vertex_colors() &&
+                        surface.shading_normal == surface.normal &&
                         (!has_media_ || media_of_[index].innermost() == nullptr);
   if (!is_plain) {
     is_hit_[index] = shade_any(path, material, surface, index, depth) ? 1 : 0;
     return;
   }
+  Color3f color = material.color;
   if (!cones_.empty()) {
-    cones_[index] = cones_[index].at(hit.t * glm::length(path.ray.direction));
+    const float distance = hit.t * glm::length(path.ray.direction);
+    if (material.textures != nullptr)
+      color = scene_.textured_color(path.ray, hit, cones_[index].footprint_at(distance), surface);
+    cones_[index] = cones_[index].at(distance);
   }
   const auto lane = static_cast<int>(matt_.count);
   matt_.add(index, surface, path.ray.direction);
   matt_.offset[lane] = scene_.description().epsilon.value_or(surface.position_error);
-  matt_.color.set(lane, material.color);
+  matt_.color.set(lane, color);
   matt_.throughput.set(lane, path.throughput);
   matt_.lights.from.u[lane] = light_points_[index].x;
   matt_.lights.from.v[lane] = light_points_[index].y;

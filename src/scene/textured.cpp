@@ -102,6 +102,11 @@ MaterialValues Scene::textured(const Ray3f& ray, const Hit& hit, const Footprint
   return here;
 }
 
+Color3f Scene::textured_color(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
+                              const SurfacePoint& surface) const {
+  return raytracer::color_at(material_of(hit), texture_point(ray, surface, detail_at(ray, hit), footprint));
+}
+
 float Scene::alpha_at(const Ray3f& ray, const Hit& hit) const {
   const Material& material = material_of(hit);
   if (material.textures == nullptr || material.textures->alpha == nullptr) return material.alpha;

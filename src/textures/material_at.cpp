@@ -70,6 +70,19 @@ MaterialValues material_at(const Material& material, const TexturePoint& point) 
   return result;
 }
 
+bool varies_in_color_alone(const MaterialTextures& textures) {
+  const auto is_other = [&](const auto& row) {
+    return row.texture != &MaterialTextures::color && textures.*row.texture != nullptr;
+  };
+  return std::ranges::none_of(kColors, is_other) && std::ranges::none_of(kNumbers, is_other) &&
+         textures.normal_map == nullptr && textures.bump == nullptr;
+}
+
+Color3f color_at(const Material& material, const TexturePoint& point) {
+  if (!material.textures || !material.textures->color) return material.color;
+  return limited(averaged(*material.textures->color, point), 0, 1);
+}
+
 float alpha_at(const Material& material, const TexturePoint& point) {
   if (!material.textures || !material.textures->alpha) return material.alpha;
   return limited(number_of(averaged(*material.textures->alpha, point)), 0, 1);

@@ -10,6 +10,12 @@ namespace raytracer {
 /// The material's values, those of its textures there in place of its own, in their ranges.
 MaterialValues material_at(const Material& material, const TexturePoint& point);
 
+/// Whether textures say nothing but its colour: all else is the same everywhere.
+bool varies_in_color_alone(const MaterialTextures& textures);
+
+/// Its colour alone, for those.
+Color3f color_at(const Material& material, const TexturePoint& point);
+
 /// How much of the surface is there, 0..1: alpha alone, for rays that ask only for that.
 float alpha_at(const Material& material, const TexturePoint& point);
 
