@@ -49,18 +49,6 @@ class Set(InAScene):
         self.assert_usage(run("check", "-", "--set", "hat=tomatoe"), "'hat' is a colour", "did you mean 'tomato'?")
         self.assert_usage(run("check", "-", "--set", "n=red"), "'n' is a number")
 
-    def test_what_is_shared_counts_once(self):
-        """20 leaves a twig, 1000 twigs a tree, 1000 trees: the first use of each is built where it stands, the second once
-        more to be shared, and all others are places."""
-        text = """raytracer 1
-define twig { for i from 1 to 20 { sphere { center (i) 0 0 radius 0.3 } } }
-define tree { for i from 1 to 1000 { twig { translate 0 (i) 0 } } }
-for i from 1 to 1000 { tree { translate 0 0 (i) } }
-"""
-        made = (20 + 20 + 999) + 1000 * 20 + 999
-        self.assertEqual(run("check", "-", "--limit", f"shapes={made}", scene=text).returncode, 0)
-        self.assertEqual(run("check", "-", "--limit", f"shapes={made - 1}", scene=text).returncode, 1)
-
     def test_several_of_them(self):
         self.assertEqual(self.params("--set", "n=3", "--set", "hat=blue")[:2], ["n = 3", "hat = #0000ff"])
 
