@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "raytracer/vector3f.hpp"
 
@@ -51,6 +52,12 @@ struct RayLanes {
     t_max[i] = ray.t_max;
   }
 };
+
+/// Copies N numbers that lie side by side.
+template <int N, class T>
+inline void copy_lanes(T* to, const T* from) {
+  std::memcpy(to, from, N * sizeof(T));
+}
 
 /// As many as the accelerator takes at once.
 inline constexpr int kBlockSize = 16;

@@ -6,7 +6,6 @@
 
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "core/numeric.hpp"
@@ -52,17 +51,15 @@ RTCRay to_embree(const Ray3f& ray) {
           0};
 }
 
-void copy_lanes(float* to, const float* from) { std::memcpy(to, from, kBlockSize * sizeof(float)); }
-
 void set_rays(RTCRay16& query, const RayBlock& rays) {
-  copy_lanes(query.org_x, rays.origin_x);
-  copy_lanes(query.org_y, rays.origin_y);
-  copy_lanes(query.org_z, rays.origin_z);
-  copy_lanes(query.tnear, rays.t_min);
-  copy_lanes(query.dir_x, rays.direction_x);
-  copy_lanes(query.dir_y, rays.direction_y);
-  copy_lanes(query.dir_z, rays.direction_z);
-  copy_lanes(query.tfar, rays.t_max);
+  copy_lanes<kBlockSize>(query.org_x, rays.origin_x);
+  copy_lanes<kBlockSize>(query.org_y, rays.origin_y);
+  copy_lanes<kBlockSize>(query.org_z, rays.origin_z);
+  copy_lanes<kBlockSize>(query.tnear, rays.t_min);
+  copy_lanes<kBlockSize>(query.dir_x, rays.direction_x);
+  copy_lanes<kBlockSize>(query.dir_y, rays.direction_y);
+  copy_lanes<kBlockSize>(query.dir_z, rays.direction_z);
+  copy_lanes<kBlockSize>(query.tfar, rays.t_max);
   for (int i = 0; i < kBlockSize; ++i) {
     query.time[i] = 0;
     query.mask[i] = kAllGeometry;

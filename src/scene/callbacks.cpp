@@ -75,18 +75,16 @@ inline void occlude_one(const RTCOccludedFunctionNArguments& args, unsigned n, u
 // --- eight rays of a packet
 // ------------------------------------------------------------------------------------------
 
-void copy_lanes(float* to, const float* from) { std::memcpy(to, from, kLanes * sizeof(float)); }
-
 // Lanes first … first + 7; those that are not `valid` are made idle.
 RayPacket load(RTCRayN* rays, unsigned n, unsigned first, const int* valid) {
   RayPacket packet;
-  copy_lanes(packet.origin_x, &RTCRayN_org_x(rays, n, first));
-  copy_lanes(packet.origin_y, &RTCRayN_org_y(rays, n, first));
-  copy_lanes(packet.origin_z, &RTCRayN_org_z(rays, n, first));
-  copy_lanes(packet.direction_x, &RTCRayN_dir_x(rays, n, first));
-  copy_lanes(packet.direction_y, &RTCRayN_dir_y(rays, n, first));
-  copy_lanes(packet.direction_z, &RTCRayN_dir_z(rays, n, first));
-  copy_lanes(packet.t_min, &RTCRayN_tnear(rays, n, first));
+  copy_lanes<kLanes>(packet.origin_x, &RTCRayN_org_x(rays, n, first));
+  copy_lanes<kLanes>(packet.origin_y, &RTCRayN_org_y(rays, n, first));
+  copy_lanes<kLanes>(packet.origin_z, &RTCRayN_org_z(rays, n, first));
+  copy_lanes<kLanes>(packet.direction_x, &RTCRayN_dir_x(rays, n, first));
+  copy_lanes<kLanes>(packet.direction_y, &RTCRayN_dir_y(rays, n, first));
+  copy_lanes<kLanes>(packet.direction_z, &RTCRayN_dir_z(rays, n, first));
+  copy_lanes<kLanes>(packet.t_min, &RTCRayN_tnear(rays, n, first));
   const float* t_max = &RTCRayN_tfar(rays, n, first);
   for (int i = 0; i < kLanes; ++i) packet.t_max[i] = valid[i] != 0 ? t_max[i] : -kInfinity;
   return packet;

@@ -7,8 +7,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <cstring>
-
+#include "core/lanes.hpp"
 #include "raytracer/scene.hpp"
 
 namespace raytracer::embree {
@@ -47,11 +46,6 @@ inline void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays, Coher
   RTCIntersectContext with = context(coherence);
   rtcIntersect16(valid, scene, &with, &rays);
 }
-// A field of eight rays of sixteen.
-template <class T>
-void copy_eight(T* to, const T* from) {
-  std::memcpy(to, from, 8 * sizeof(T));
-}
 inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays, Coherence coherence) {
   RTCIntersectContext with = context(coherence);
   if (coherence == Coherence::kIncoherent) return rtcOccluded16(valid, scene, &with, &rays);
@@ -60,20 +54,20 @@ inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays, Coherence
   // the others are not 0.
   for (int first = 0; first < 16; first += 8) {
     RTCRay8 eight;
-    copy_eight(eight.org_x, rays.org_x + first);
-    copy_eight(eight.org_y, rays.org_y + first);
-    copy_eight(eight.org_z, rays.org_z + first);
-    copy_eight(eight.tnear, rays.tnear + first);
-    copy_eight(eight.dir_x, rays.dir_x + first);
-    copy_eight(eight.dir_y, rays.dir_y + first);
-    copy_eight(eight.dir_z, rays.dir_z + first);
-    copy_eight(eight.time, rays.time + first);
-    copy_eight(eight.tfar, rays.tfar + first);
-    copy_eight(eight.mask, rays.mask + first);
-    copy_eight(eight.id, rays.id + first);
-    copy_eight(eight.flags, rays.flags + first);
+    copy_lanes<8>(eight.org_x, rays.org_x + first);
+    copy_lanes<8>(eight.org_y, rays.org_y + first);
+    copy_lanes<8>(eight.org_z, rays.org_z + first);
+    copy_lanes<8>(eight.tnear, rays.tnear + first);
+    copy_lanes<8>(eight.dir_x, rays.dir_x + first);
+    copy_lanes<8>(eight.dir_y, rays.dir_y + first);
+    copy_lanes<8>(eight.dir_z, rays.dir_z + first);
+    copy_lanes<8>(eight.time, rays.time + first);
+    copy_lanes<8>(eight.tfar, rays.tfar + first);
+    copy_lanes<8>(eight.mask, rays.mask + first);
+    copy_lanes<8>(eight.id, rays.id + first);
+    copy_lanes<8>(eight.flags, rays.flags + first);
     rtcOccluded8(valid + first, scene, &with, &eight);
-    copy_eight(rays.tfar + first, eight.tfar);
+    copy_lanes<8>(rays.tfar + first, eight.tfar);
   }
 }
 #endif
