@@ -12,12 +12,8 @@ void MattVertices::add(std::uint32_t path_index, const SurfacePoint& surface, co
   normal.set(i, surface.normal);
   side[i] = glm::dot(surface.normal, -way) > 0 ? 1.0F : -1.0F;
   const Vector3f facing = side[i] * surface.normal;
-  lights.from.x[i] = surface.position.x;
-  lights.from.y[i] = surface.position.y;
-  lights.from.z[i] = surface.position.z;
-  lights.normal_x[i] = facing.x;
-  lights.normal_y[i] = facing.y;
-  lights.normal_z[i] = facing.z;
+  lights.from.position.set(i, surface.position);
+  lights.normal.set(i, facing);
 }
 
 // Into arrays of its own: what could be memory that is read keeps loops from becoming vectors.
@@ -28,14 +24,14 @@ void MattVertices::find_light(const LightSamples& samples, Sampling sampling) {
   for (int i = 0; i < kBlockSize; ++i) {
     const Vector3f facing = side[i] * normal.at(i);
     from.set(i, position.at(i) + offset[i] * facing);
-    const Vector3f to_light(samples.direction_x[i], samples.direction_y[i], samples.direction_z[i]);
+    const Vector3f to_light = samples.direction.at(i);
     const float cosine = glm::dot(facing, to_light), light_pdf = samples.pdf[i];
     const float chosen = cosine_pdf(cosine);  // the density with which the material would have
     const bool is_delta = samples.is_delta[i] != 0;
     const float heuristic = power_heuristic(light_pdf, chosen);
     const float weight = (is_delta | !is_weighted) ? 1.0F : heuristic;
     const Color3f value = color_share(color.at(i)) * chosen;
-    const Color3f radiance(samples.red[i], samples.green[i], samples.blue[i]);
+    const Color3f radiance = samples.radiance.at(i);
     const Color3f result = throughput.at(i) * value * (weight / light_pdf) * radiance;
     found.set(i, result);
     const bool is_some = (result.x > 0) | (result.y > 0) | (result.z > 0);

@@ -15,8 +15,7 @@ namespace raytracer {
 /// What is done here is what Bsdf does of a purely matt material, to the last bit, on surfaces whose two
 /// normals are one. Lanes from `count` on hold anything.
 struct MattVertices {
-  static constexpr std::size_t kSize = LightQueries::kSize;
-  static_assert(kSize == kBlockSize);
+  static constexpr std::size_t kSize = kBlockSize;
 
   // What is given.
   std::size_t count = 0;

@@ -313,7 +313,7 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
 // Does for those that wait what shade_any() does for one.
 void PathTracer::shade_matt(int depth) {
   const auto count = static_cast<int>(matt_.count);
-  matt_.lights.count = matt_.count;
+  matt_.lights.count = count;
   lights_.sample(matt_.lights, light_samples_);
   matt_.find_light(light_samples_, settings_.sampling);
   for (int i = 0; i < count; ++i) {
@@ -321,8 +321,8 @@ void PathTracer::shade_matt(int depth) {
     const LightSamples& to = light_samples_;
     LightSample light;
     light.is_far = to.is_far[i] != 0;
-    light.direction = {to.direction_x[i], to.direction_y[i], to.direction_z[i]};
-    light.target = {to.target_x[i], to.target_y[i], to.target_z[i]};
+    light.direction = to.direction.at(i);
+    light.target = to.target.at(i);
     let_wait(light.shadow_ray(matt_.start.at(i)), matt_.light.at(i), paths_[matt_.path[i]].slot, nullptr,
              depth);
   }

@@ -234,19 +234,17 @@ void OnlyQuad::sample(const LightQueries& queries, LightSamples& samples) const 
   face->choose(queries.from, seen);
   LightSamples found;
   const OnlyQuad quad = *this;
-  for (std::size_t i = 0; i < LightSamples::kSize; ++i) {
-    const Vector3f from(queries.from.x[i], queries.from.y[i], queries.from.z[i]);
-    const Vector3f position(seen.x[i], seen.y[i], seen.z[i]);
+  for (int i = 0; i < kBlockSize; ++i) {
+    const Vector3f from = queries.from.position.at(i), position = seen.position.at(i);
     const Vector3f way = position - from;
     const float distance = glm::length(way);
     const Vector3f direction = way / distance;
     const Vector3f target = off_surface(position, quad.position_error, quad.normal, from);
     const bool is_seen = !quad.is_one_sided | (glm::dot(quad.normal, way) < 0);
     const float pdf = ((distance > 0) & (distance < kInfinity) & is_seen) ? seen.pdf[i] : 0.0F;
-    found.direction_x[i] = direction.x, found.direction_y[i] = direction.y;
-    found.direction_z[i] = direction.z;
-    found.target_x[i] = target.x, found.target_y[i] = target.y, found.target_z[i] = target.z;
-    found.red[i] = quad.radiance.x, found.green[i] = quad.radiance.y, found.blue[i] = quad.radiance.z;
+    found.direction.set(i, direction);
+    found.target.set(i, target);
+    found.radiance.set(i, quad.radiance);
     found.pdf[i] = pdf > kLeastDensity ? pdf : 0.0F;
     found.is_far[i] = found.is_delta[i] = 0;
   }
@@ -558,16 +556,13 @@ bool LightSet::sample(const Vector3f& position, const Vector3f& normal, float u_
 void LightSet::sample(const LightQueries& queries, LightSamples& samples) const {
   if (parts_->only_quad.face != nullptr) return parts_->only_quad.sample(queries, samples);
   const shapes::PlacesToSeeFrom& from = queries.from;
-  for (std::size_t i = 0; i < queries.count; ++i) {
+  for (int i = 0; i < queries.count; ++i) {
     LightSample one;
-    const bool is_chosen = sample({from.x[i], from.y[i], from.z[i]},
-                                  {queries.normal_x[i], queries.normal_y[i], queries.normal_z[i]},
-                                  queries.u_light[i], {from.u[i], from.v[i]}, one);
-    samples.direction_x[i] = one.direction.x, samples.direction_y[i] = one.direction.y;
-    samples.direction_z[i] = one.direction.z;
-    samples.target_x[i] = one.target.x, samples.target_y[i] = one.target.y,
-    samples.target_z[i] = one.target.z;
-    samples.red[i] = one.radiance.x, samples.green[i] = one.radiance.y, samples.blue[i] = one.radiance.z;
+    const bool is_chosen =
+        sample(from.position.at(i), queries.normal.at(i), queries.u_light[i], {from.u[i], from.v[i]}, one);
+    samples.direction.set(i, one.direction);
+    samples.target.set(i, one.target);
+    samples.radiance.set(i, one.radiance);
     samples.pdf[i] = is_chosen ? one.pdf : 0.0F;
     samples.is_far[i] = one.is_far ? 1 : 0;
     samples.is_delta[i] = one.is_delta ? 1 : 0;

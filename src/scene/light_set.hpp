@@ -26,20 +26,18 @@ struct LightSample {
 
 /// What sixteen vertices ask LightSet::sample() at once. Lanes from `count` on hold anything.
 struct LightQueries {
-  static constexpr std::size_t kSize = shapes::PlacesToSeeFrom::kSize;
-  std::size_t count = 0;
+  int count = 0;
   shapes::PlacesToSeeFrom from{};
-  alignas(64) float normal_x[kSize]{}, normal_y[kSize]{}, normal_z[kSize]{};
-  float u_light[kSize]{};
+  Vector3Block normal{};
+  float u_light[kBlockSize]{};
 };
 
 /// The answers, as LightSample has them; pdf 0: nothing.
 struct LightSamples {
-  static constexpr std::size_t kSize = LightQueries::kSize;
-  alignas(64) float direction_x[kSize], direction_y[kSize], direction_z[kSize];
-  alignas(64) float target_x[kSize], target_y[kSize], target_z[kSize];
-  alignas(64) float red[kSize], green[kSize], blue[kSize], pdf[kSize];
-  alignas(64) std::uint32_t is_far[kSize], is_delta[kSize];  // 0 or 1
+  Vector3Block direction, target;
+  ColorBlock radiance;
+  alignas(64) float pdf[kBlockSize];
+  alignas(64) std::uint32_t is_far[kBlockSize], is_delta[kBlockSize];  // 0 or 1
 };
 
 /// Immutable. Does not keep the description's shapes: the description must outlive it and not move.

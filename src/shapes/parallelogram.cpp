@@ -68,12 +68,13 @@ float Parallelogram::pdf_near(const Vector3d& from, const Vector3d& position) co
 }
 
 void Parallelogram::choose(const PlacesToSeeFrom& from, PlacesSeen& seen) const {
-  std::array<std::uint32_t, PlacesSeen::kSize> is_near;
+  std::array<std::uint32_t, kBlockSize> is_near;
   std::uint32_t any = 0;
-  for (std::size_t i = 0; i < PlacesSeen::kSize; ++i) {
-    const Vector3d place = from.place(i);
-    is_near[i] = is_near_rectangle(place) ? 1 : 0;
-    any |= is_near[i];
+  for (int i = 0; i < kBlockSize; ++i) {
+    const Vector3d place(from.position.at(i));
+    const std::uint32_t near = is_near_rectangle(place) ? 1 : 0;
+    is_near[static_cast<std::size_t>(i)] = near;
+    any |= near;
     const glm::dvec2 st(static_cast<double>(from.u[i]), static_cast<double>(from.v[i]));
     const Vector3d point = at(st);
     seen.set(i, point, area_density(place, point));
@@ -84,13 +85,13 @@ void Parallelogram::choose(const PlacesToSeeFrom& from, PlacesSeen& seen) const 
 // From and into memory of its own: what may be that of `from`, or be read on one way only, keeps the loop
 // from becoming vectors.
 void Parallelogram::choose_near(const PlacesToSeeFrom& from,
-                                const std::array<std::uint32_t, PlacesSeen::kSize>& is_near,
+                                const std::array<std::uint32_t, kBlockSize>& is_near,
                                 PlacesSeen& seen) const {
   PlacesSeen near;
   const Rectangle shape = rectangle_;
   const Vector3d along_width = width, along_height = height;
-  for (std::size_t i = 0; i < PlacesSeen::kSize; ++i) {
-    const Vector3d place = from.place(i);
+  for (int i = 0; i < kBlockSize; ++i) {
+    const Vector3d place(from.position.at(i));
     const SphericalRectangle rectangle(shape, place);
     const double angle = rectangle.solid_angle();
     const double height_above = glm::dot(place - shape.corner, shape.normal);
@@ -99,11 +100,9 @@ void Parallelogram::choose_near(const PlacesToSeeFrom& from,
     near.set(i, shape.corner + st.x * along_width + st.y * along_height,
              static_cast<float>(height_above == 0 ? 0.0 : density));
   }
-  for (std::size_t i = 0; i < PlacesSeen::kSize; ++i) {
-    const bool is_chosen = (is_near[i] != 0) & (near.pdf[i] > 0);
-    seen.x[i] = is_chosen ? near.x[i] : seen.x[i];
-    seen.y[i] = is_chosen ? near.y[i] : seen.y[i];
-    seen.z[i] = is_chosen ? near.z[i] : seen.z[i];
+  for (int i = 0; i < kBlockSize; ++i) {
+    const bool is_chosen = (is_near[static_cast<std::size_t>(i)] != 0) & (near.pdf[i] > 0);
+    seen.position.choose(i, is_chosen, near.position.at(i));
     seen.pdf[i] = is_chosen ? near.pdf[i] : seen.pdf[i];
   }
 }

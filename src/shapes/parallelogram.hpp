@@ -45,7 +45,7 @@ struct Parallelogram {
     return glm::dot(way, way) < near_squared_;
   }
   float choose_near(const Vector3d& from, const Vector2f& u, glm::dvec2& st) const;
-  void choose_near(const PlacesToSeeFrom& from, const std::array<std::uint32_t, PlacesSeen::kSize>& is_near,
+  void choose_near(const PlacesToSeeFrom& from, const std::array<std::uint32_t, kBlockSize>& is_near,
                    PlacesSeen& seen) const;
   float pdf_near(const Vector3d& from, const Vector3d& position) const;
   float area_density(const Vector3d& from, const Vector3d& position) const {

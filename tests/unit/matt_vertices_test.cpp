@@ -44,7 +44,7 @@ MattVertices random_vertices(Random& random, std::vector<Vector3f>& ways, std::s
     vertices.u[i] = random.in(0, 1);
     vertices.v[i] = random.in(0, 1);
   }
-  vertices.lights.count = count;
+  vertices.lights.count = static_cast<int>(count);
   return vertices;
 }
 
@@ -96,8 +96,8 @@ TEST_CASE("the light that sixteen vertices look at is that of each alone") {
         REQUIRE((samples.pdf[i] > 0) == is_some);
         if (!is_some) continue;
         REQUIRE(samples.pdf[i] == light.pdf);
-        REQUIRE(samples.direction_x[i] == light.direction.x);
-        REQUIRE(samples.target_y[i] == light.target.y);
+        REQUIRE(samples.direction.x[i] == light.direction.x);
+        REQUIRE(samples.target.y[i] == light.target.y);
         float chosen = 0;
         const Color3f value = bsdf_of(vertices, i).evaluate(out, light.direction, chosen);
         REQUIRE((vertices.is_lit[i] != 0) == (value.x > 0 || value.y > 0 || value.z > 0));
