@@ -153,9 +153,9 @@ class Scene {
   /// shading normal follows the material's normal map or bumps.
   MaterialValues textured(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
                           SurfacePoint& surface) const;
-  /// Its colour alone, where nothing else varies; without that of vertices.
-  Color3f textured_color(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
-                         const SurfacePoint& surface) const;
+  /// Where its textures are asked.
+  TexturePoint texture_point(const Ray3f& ray, const Hit& hit, const Footprint& footprint,
+                             const SurfacePoint& surface) const;
   /// The share of rays for which the surface is there.
   float alpha_at(const Ray3f& ray, const Hit& hit) const;
 

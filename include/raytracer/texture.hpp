@@ -22,6 +22,10 @@ struct TexturePoint {
   bool is_rough = false;
 };
 
+struct TextureBlock;
+template <int N>
+struct Vector3Lanes;
+
 /// A function over surfaces. Immutable; any number of threads may ask it at once.
 class Texture {
  public:
@@ -30,6 +34,10 @@ class Texture {
   /// The average over the point's footprint, as good as can be had. A colour is linear where the scene's
   /// method is `path`, a display value in `classic`; a texture for a number puts it into every channel.
   virtual Color3f at(const TexturePoint& point) const = 0;
+
+  /// The very same for sixteen points at once, none of them coarse. What this class does, asking at() for
+  /// each, is right for every texture; those that are asked often do it faster.
+  virtual void colors_at(const TextureBlock& points, Vector3Lanes<16>& colors) const;
 
   /// Whether that is the average over the very parallelogram of the footprint. Else it is one over something
   /// about as large, and more looks at parts of it come closer.

@@ -31,6 +31,19 @@ struct Vector3Lanes {
 };
 
 template <int N>
+struct Vector2Lanes {
+  static constexpr int kSize = N;
+
+  alignas(4 * N) float x[N], y[N];
+
+  Vector2f at(int i) const { return {x[i], y[i]}; }
+  void set(int i, const Vector2f& v) {
+    x[i] = v.x;
+    y[i] = v.y;
+  }
+};
+
+template <int N>
 struct RayLanes {
   static constexpr int kSize = N;
 
@@ -62,6 +75,7 @@ inline void copy_lanes(T* to, const T* from) {
 /// As many as the accelerator takes at once.
 inline constexpr int kBlockSize = 16;
 struct RayBlock : RayLanes<kBlockSize> {};
+using Vector2Block = Vector2Lanes<kBlockSize>;
 using Vector3Block = Vector3Lanes<kBlockSize>;
 using ColorBlock = Vector3Lanes<kBlockSize>;
 

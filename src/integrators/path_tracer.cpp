@@ -31,6 +31,9 @@ constexpr std::array<bool, kPairsPerBounce> kAreCompanions = {true, false, true,
 constexpr int kFirstRoulette = 3;
 constexpr float kWeak = 0.25F, kWeakNearGlass = 0.1F;
 
+// Of textures whose points wait for each other. Further ones are asked point by point.
+constexpr std::size_t kMostGroups = 8;
+
 float largest(const Color3f& c) { return std::max({c.x, c.y, c.z}); }
 
 bool is_black(const Color3f& c) { return !(c.x > 0 || c.y > 0 || c.z > 0); }
@@ -172,11 +175,13 @@ PathTracer::PathTracer(const Scene& scene, const PathSettings& settings, const P
       has_cutouts_(world.has_cutouts),
       has_media_(world.has_media),
       has_hidden_lights_(world.has_hidden_lights),
-      weak_(world.weak) {}
+      weak_(world.weak),
+      groups_(kMostGroups) {}
 
 void PathTracer::trace(std::span<const Ray3f> rays, std::span<const RayCone> cones,
                        std::span<const PathNumber> numbers, std::span<Color3f> colors) {
   colors_ = colors;
+  cones_ = cones;
   std::ranges::fill(colors, Color3f(0));
   paths_.clear();
   paths_.resize(rays.size());
@@ -184,14 +189,19 @@ void PathTracer::trace(std::span<const Ray3f> rays, std::span<const RayCone> con
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     paths_[i].ray = rays[i];
     paths_[i].slot = i;
+    if (!cones.empty()) paths_[i].spread = cones[i].spread;
   }
-  cones_.assign(cones.begin(), cones.end());
   if (has_media_) media_of_.assign(rays.size(), media_);
   for (int depth = 0; !paths_.empty(); ++depth) {
     find_hits(depth);
     draw_points(depth);
     shade(depth);
   }
+}
+
+Footprint PathTracer::footprint_of(const Path& path, float distance, int depth) const {
+  if (cones_.empty()) return {};
+  return depth == 0 ? cones_[path.slot].footprint_at(distance) : path.spread.footprint_at(distance);
 }
 
 void PathTracer::draw_points(int depth) {
@@ -263,7 +273,10 @@ void PathTracer::shade(int depth) {
       shade_hit(i, depth);
     }
   }
-  if (matt_.count > 0) shade_matt(depth);
+  for (std::size_t i = 0; i < group_count_; ++i) {
+    if (groups_[i].vertices.count > 0) shade_matt(groups_[i], depth);
+  }
+  group_count_ = 1;
   add_unoccluded();
   std::size_t kept = 0;
   for (std::uint32_t i = 0; i < paths_.size(); ++i) {
@@ -281,9 +294,11 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
   const Hit& hit = hits_[index];
   const Material& material = scene_.material_of(hit);
   const SurfacePoint surface = raytracer::surface_at(scene_, path.ray, hit);
+  const MaterialTextures* const textures = material.textures.get();
+  MattGroup* group = textures == nullptr ? groups_.data() : group_of(*textures, path.spread.is_rough);
   const bool is_plain = !has_cutouts_ && depth < settings_.bounces && is_matt(material) &&
-                        (material.textures == nullptr || varies_in_color_alone(*material.textures)) &&
-                        !material.is_emissive() && !material.is_area_light && !scene_.has_vertex_colors() &&
+                        (group != nullptr || varies_in_color_alone(*textures)) && !material.is_emissive() &&
+                        !material.is_area_light && !scene_.has_vertex_colors() &&
                         surface.shading_normal == surface.normal &&
                         (!has_media_ || media_of_[index].innermost() == nullptr);
   if (!is_plain) {
@@ -291,63 +306,103 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
     return;
   }
   Color3f color = material.color;
-  if (!cones_.empty()) {
-    const float distance = hit.t * glm::length(path.ray.direction);
-    if (material.textures != nullptr)
-      color = scene_.textured_color(path.ray, hit, cones_[index].footprint_at(distance), surface);
-    cones_[index] = cones_[index].at(distance);
+  if (textures != nullptr) {
+    const bool may_wait = path.spread.is_rough || (depth == 0 && cones_[path.slot].is_one_of_many());
+    if (may_wait && group == nullptr) group = new_group(*textures, path.spread.is_rough);
+    if (may_wait && group != nullptr) {
+      ask_color(*group, path, hit, surface);
+    } else {
+      const Footprint footprint = footprint_of(path, hit.t, depth);
+      color = color_at(*textures->color, scene_.texture_point(path.ray, hit, footprint, surface));
+      group = groups_.data();
+    }
   }
-  const auto lane = static_cast<int>(matt_.count);
-  matt_.add(index, surface, path.ray.direction);
-  matt_.offset[lane] = scene_.description().epsilon.value_or(surface.position_error);
-  matt_.color.set(lane, color);
-  matt_.throughput.set(lane, path.throughput);
-  matt_.lights.from.u[lane] = light_points_[index].x;
-  matt_.lights.from.v[lane] = light_points_[index].y;
-  matt_.lights.u_light[lane] = choice_points_[index].x;
-  matt_.u[lane] = scatter_points_[index].x;
-  matt_.v[lane] = scatter_points_[index].y;
-  if (matt_.count == MattVertices::kSize) shade_matt(depth);
+  path.spread = path.spread.at(hit.t);
+  MattVertices& matt = group->vertices;
+  const auto lane = static_cast<int>(matt.count);
+  matt.add(index, surface, path.ray.direction);
+  matt.offset[lane] = scene_.description().epsilon.value_or(surface.position_error);
+  matt.color.set(lane, color);
+  matt.throughput.set(lane, path.throughput);
+  matt.lights.from.u[lane] = light_points_[index].x;
+  matt.lights.from.v[lane] = light_points_[index].y;
+  matt.lights.u_light[lane] = choice_points_[index].x;
+  matt.u[lane] = scatter_points_[index].x;
+  matt.v[lane] = scatter_points_[index].y;
+  if (matt.count == MattVertices::kSize) shade_matt(*group, depth);
+}
+
+// Where the texture of its colour is asked, for the next vertex of the group.
+void PathTracer::ask_color(MattGroup& group, const Path& path, const Hit& hit, const SurfacePoint& surface) {
+  const auto lane = static_cast<int>(group.vertices.count);
+  const SurfaceDetail detail = scene_.detail_at(path.ray, hit);
+  if (group.queries.is_rough) {
+    group.queries.set_rough(lane, surface, detail, path.spread.at(hit.t).width);
+  } else {
+    group.queries.set_seen(lane, surface, detail, path.ray, hit.t, cones_[path.slot]);
+  }
+}
+
+// Where vertices with such textures wait; null: not yet anywhere.
+PathTracer::MattGroup* PathTracer::group_of(const MaterialTextures& textures, bool is_rough) {
+  for (std::size_t i = 1; i < group_count_; ++i) {
+    MattGroup& group = groups_[i];
+    if (group.textures == &textures && group.queries.is_rough == is_rough) return &group;
+  }
+  return nullptr;
+}
+
+PathTracer::MattGroup* PathTracer::new_group(const MaterialTextures& textures, bool is_rough) {
+  if (group_count_ == kMostGroups) return nullptr;
+  MattGroup& group = groups_[group_count_++];
+  group.textures = &textures;
+  group.queries.is_rough = is_rough;
+  return &group;
 }
 
 // Does for those that wait what shade_any() does for one.
-void PathTracer::shade_matt(int depth) {
-  const auto count = static_cast<int>(matt_.count);
-  matt_.lights.count = count;
-  lights_.sample(matt_.lights, light_samples_);
-  matt_.find_light(light_samples_, settings_.sampling);
+void PathTracer::shade_matt(MattGroup& group, int depth) {
+  MattVertices& matt = group.vertices;
+  const auto count = static_cast<int>(matt.count);
+  if (group.textures != nullptr) {
+    group.queries.count = count;
+    TextureBlock points;
+    texture_points(group.queries, points);
+    colors_at(*group.textures->color, points, matt.color);
+  }
+  matt.lights.count = count;
+  lights_.sample(matt.lights, light_samples_);
+  matt.find_light(light_samples_, settings_.sampling);
   for (int i = 0; i < count; ++i) {
-    if (matt_.is_lit[i] == 0) continue;
+    if (matt.is_lit[i] == 0) continue;
     const LightSamples& to = light_samples_;
     LightSample light;
     light.is_far = to.is_far[i] != 0;
     light.direction = to.direction.at(i);
     light.target = to.target.at(i);
-    let_wait(light.shadow_ray(matt_.start.at(i)), matt_.light.at(i), paths_[matt_.path[i]].slot, nullptr,
-             depth);
+    let_wait(light.shadow_ray(matt.start.at(i)), matt.light.at(i), paths_[matt.path[i]].slot, nullptr, depth);
   }
-  matt_.scatter();
+  matt.scatter();
   for (int i = 0; i < count; ++i) {
-    const std::uint32_t index = matt_.path[i];
+    const std::uint32_t index = matt.path[i];
     Path& path = paths_[index];
-    const Vector3f direction = matt_.direction.at(i), position = matt_.position.at(i);
-    path.throughput = matt_.throughput.at(i);
-    path.pdf = matt_.pdf[i];
+    const Vector3f direction = matt.direction.at(i), position = matt.position.at(i);
+    path.throughput = matt.throughput.at(i);
+    path.pdf = matt.pdf[i];
     path.from = position;
-    path.from_normal = matt_.side[i] * matt_.normal.at(i);
-    path.ray = {position + matt_.side[i] * matt_.offset[i] * matt_.normal.at(i), direction};
-    if (!cones_.empty() && path.pdf > 0) cones_[index].scatter(path.pdf);
+    path.from_normal = matt.side[i] * matt.normal.at(i);
+    path.ray = {position + matt.side[i] * matt.offset[i] * matt.normal.at(i), direction};
+    if (!cones_.empty() && path.pdf > 0) path.spread.scatter(path.pdf);
     const float survival = path.pdf > 0 ? roulette(path, depth, chance_points_[index].x) : 0.0F;
     path.throughput *= survival;
     is_hit_[index] = survival > 0 ? 1 : 0;
   }
-  matt_.count = 0;
+  matt.count = 0;
 }
 
 void PathTracer::move_path(std::size_t from, std::size_t to) {
   paths_[to] = paths_[from];
   numbers_[to] = numbers_[from];
-  if (!cones_.empty()) cones_[to] = cones_[from];
   if (has_media_) media_of_[to] = media_of_[from];
 }
 
@@ -361,11 +416,8 @@ bool PathTracer::shade_any(Path& path, const Material& material, const SurfacePo
   const bool is_outside = glm::dot(vertex.surface.normal, vertex.out) > 0;
   vertex.facing = is_outside ? vertex.surface.normal : -vertex.surface.normal;
   const float distance = hit.t * length;
-  RayCone cone;
-  if (!cones_.empty()) {
-    cone = cones_[index];
-    cones_[index] = cone.at(distance);
-  }
+  const Footprint arriving = footprint_of(path, distance, depth);
+  path.spread = path.spread.at(distance);
   const Media* const media = has_media_ ? &media_of_[index] : nullptr;
   if (media != nullptr && media->innermost() != nullptr) {
     path.throughput *= glm::exp(-distance * media->innermost()->absorption);
@@ -379,7 +431,7 @@ bool PathTracer::shade_any(Path& path, const Material& material, const SurfacePo
   if (varies(scene_, material)) {
     // Light that could have been chosen is seen as it would have been: sharp.
     const bool is_sharp = path.pdf > 0 && material.is_emissive();
-    const Footprint footprint = is_sharp ? Footprint{} : cone.footprint_at(distance);
+    const Footprint footprint = is_sharp ? Footprint{} : arriving;
     textured = scene_.textured(path.ray, hit, footprint, vertex.surface);
     if (media != nullptr && !is_outside) textured->ior = media->ior_of(&material, textured->ior);
     vertex.resolved = &*textured;
@@ -485,7 +537,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   path.from = vertex.surface.position;
   path.from_normal = vertex.light_side;
   path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
-  if (!sample.is_delta && !cones_.empty()) cones_[index].scatter(sample.pdf);
+  if (!sample.is_delta) path.spread.scatter(sample.pdf);
   if (sample.is_transmission && has_inside(vertex.material)) {
     Media& media = media_of_[index];
     const float before = media.ior();

@@ -14,6 +14,7 @@
 #include "sampling/path_points.hpp"
 #include "scene/light_set.hpp"
 #include "scene/shading_point.hpp"
+#include "scene/texture_queries.hpp"
 
 namespace raytracer {
 
@@ -63,7 +64,8 @@ class PathTracer {
     Vector3f from{0}, from_normal{0};  // where the ray's direction was chosen, as LightSet wants it
     float pdf = 0;             // of that choice; 0: the eye's or a mirror's, which no light could have chosen
     float radiance_scale = 1;  // what refractions have made of the throughput, for the roulette
-    std::uint32_t slot = 0;    // in colors
+    RaySpread spread;          // of the ray; the eye's have their cones besides
+    std::uint32_t slot = 0;    // in colors, and in cones
   };
 
   // Shadow rays that wait until they are a packet, and what each lets pass.
@@ -75,16 +77,27 @@ class PathTracer {
     Media media[kBlockSize];  // around their origins, where cut-outs and glass are about
   };
 
+  // Vertices that wait to be shaded, and where the texture of their colours is asked.
+  struct MattGroup {
+    const MaterialTextures* textures = nullptr;  // null: their colours are known
+    MattVertices vertices;
+    TextureQueries queries;
+  };
+
   // A path's latest hit, with all that shading needs.
   struct Vertex;
 
+  Footprint footprint_of(const Path& path, float distance, int depth) const;
   void find_hits(int depth);
   void pass_through(Path& path, std::uint32_t index, int depth);
   bool is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const;
   void shade(int depth);
   void move_path(std::size_t from, std::size_t to);
   void shade_hit(std::uint32_t index, int depth);
-  void shade_matt(int depth);
+  void ask_color(MattGroup& group, const Path& path, const Hit& hit, const SurfacePoint& surface);
+  MattGroup* group_of(const MaterialTextures& textures, bool is_rough);
+  MattGroup* new_group(const MaterialTextures& textures, bool is_rough);
+  void shade_matt(MattGroup& group, int depth);
   bool shade_any(Path& path, const Material& material, const SurfacePoint& surface, std::uint32_t index,
                  int depth);
   void add_sky(const Path& path, int depth);
@@ -110,15 +123,15 @@ class PathTracer {
 
   std::vector<Path> paths_;  // those that go on; compacted after every bounce
   std::vector<PathNumber> numbers_;
-  // Likewise what only textures and only see-through scenes need; empty in others.
-  std::vector<RayCone> cones_;
-  std::vector<Media> media_of_;
+  std::vector<Media> media_of_;  // likewise; empty where nothing is see-through
   std::vector<Hit> hits_;
   std::vector<std::uint8_t> is_hit_;  // once it is shaded: whether its path goes on
   std::vector<Vector2f> light_points_, choice_points_, scatter_points_, chance_points_;
   std::span<Color3f> colors_;
+  std::span<const RayCone> cones_;  // empty where there are no textures
   ShadowRays waiting_;
-  MattVertices matt_;  // those that wait to be shaded
+  std::vector<MattGroup> groups_;  // the first is of known colours
+  std::size_t group_count_ = 1;    // that are in use; each of the others has textures of its own
   LightSamples light_samples_{};
 };
 

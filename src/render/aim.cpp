@@ -43,22 +43,37 @@ Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel
   return scene.camera().ray_through(across, down, lens);
 }
 
+namespace {
+
+/// Around the middle of what it stands for.
+RayCone cone_around(const Scene& scene, const Image& image, const glm::ivec2& pixel, const PixelShare& share,
+                    const Vector2f& lens) {
+  const double across = (pixel.x + static_cast<double>(share.middle.x)) / image.width;
+  const double down = (pixel.y + static_cast<double>(share.middle.y)) / image.height;
+  RayCone cone;
+  cone.edges = scene.camera().differential(across, down, lens, static_cast<double>(share.edge) / image.width,
+                                           static_cast<double>(share.edge) / image.height);
+  cone.spread.width = glm::length(cone.edges.origin_dx);
+  cone.spread.spread = glm::length(cone.edges.direction_dx);
+  return cone;
+}
+
+}  // namespace
+
 RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
                     const Vector2f& lens, const Ray3f& ray, int samples) {
   const PixelShare share = share_of(within, samples);
-  const double across = (pixel.x + static_cast<double>(share.middle.x)) / image.width;
-  const double down = (pixel.y + static_cast<double>(share.middle.y)) / image.height;
-  const Ray3f middle = scene.camera().ray_through(across, down, lens);
-  RayCone cone;
+  RayCone cone = cone_around(scene, image, pixel, share, lens);
+  const Ray3f middle = camera_ray(scene, image, pixel, share.middle, lens);
   cone.aside_origin = middle.origin - ray.origin;
   cone.aside_direction = middle.direction - ray.direction;
-  cone.edges = scene.camera().differential(across, down, lens, static_cast<double>(share.edge) / image.width,
-                                           static_cast<double>(share.edge) / image.height);
-  constexpr int kFew = 16;
-  cone.is_coarse = samples < kFew;
-  cone.width = glm::length(cone.edges.origin_dx);
-  cone.spread = glm::length(cone.edges.direction_dx);
+  cone.is_coarse = are_few(samples);
   return cone;
+}
+
+RayCone pixel_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, int samples) {
+  const Vector2f middle(0.5F);
+  return cone_around(scene, image, pixel, {middle, 1 / std::sqrt(static_cast<float>(samples))}, middle);
 }
 
 bool has_textures(const SceneDescription& scene) {

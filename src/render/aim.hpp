@@ -19,9 +19,15 @@ PlaceBlock places_of(const PixelBlock& pixels, const WithinPixels& within, const
 Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
                  const Vector2f& lens);
 
+/// Whether so few samples share a pixel that each has to stand for its part of it as exactly as can be.
+constexpr bool are_few(int samples) { return samples < 16; }
+
 /// How wide what that ray stands for is, one of as many samples of the pixel.
 RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
                     const Vector2f& lens, const Ray3f& ray, int samples);
+
+/// Likewise for all of many samples of a pixel, whose rays differ little in it.
+RayCone pixel_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, int samples);
 
 /// Whether anything needs those cones.
 bool has_textures(const SceneDescription& scene);

@@ -78,11 +78,21 @@ void PathRenderer::set_up(Batch& batch, int first_sample, int end_sample) const 
   if (scene_.camera().has_lens()) points_.fill(1, batch.numbers, batch.on_lens);
   const auto samples = static_cast<std::size_t>(end_sample - first_sample);
   aim(batch, samples);
-  if (!has_textures_) return;
-  batch.cones.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    batch.cones[i] = camera_cone(scene_, image_, batch.pixels[i / samples], batch.places[i], batch.on_lens[i],
-                                 batch.rays[i], settings_.samples);
+  if (has_textures_) set_cones(batch, samples);
+}
+
+void PathRenderer::set_cones(Batch& batch, std::size_t samples) const {
+  batch.cones.resize(batch.rays.size());
+  if (are_few(settings_.samples)) {
+    for (std::size_t i = 0; i < batch.cones.size(); ++i) {
+      batch.cones[i] = camera_cone(scene_, image_, batch.pixels[i / samples], batch.places[i],
+                                   batch.on_lens[i], batch.rays[i], settings_.samples);
+    }
+    return;
+  }
+  for (std::size_t p = 0; p < batch.pixels.size(); ++p) {
+    const RayCone cone = pixel_cone(scene_, image_, batch.pixels[p], settings_.samples);
+    std::fill_n(batch.cones.begin() + static_cast<std::ptrdiff_t>(p * samples), samples, cone);
   }
 }
 

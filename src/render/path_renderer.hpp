@@ -22,6 +22,7 @@ class PathRenderer {
 
   void set_up(Batch& batch, int first_sample, int end_sample) const;
   void aim(Batch& batch, std::size_t samples) const;
+  void set_cones(Batch& batch, std::size_t samples) const;
 
   const Scene& scene_;
   const RenderSettings& settings_;

@@ -11,32 +11,19 @@ namespace raytracer {
 
 /// How wide the part of the picture is that a ray stands for: at distance t of a ray with unit direction,
 /// width + t * spread. Textures are averaged over it.
-struct RayCone {
+struct RaySpread {
   float width = 0;
   float spread = 0;
-  /// What the eye's rays know besides: how they differ from the ray through the middle of what they stand
-  /// for, and how that one changes over the edges of it. `aside_*` like the differential's.
-  Vector3f aside_origin{0}, aside_direction{0};
-  RayDifferential edges{};
-  bool is_coarse = false;  ///< few rays share the pixel
-  bool is_rough = false;   ///< it has been scattered widely
+  bool is_rough = false;  ///< it has been scattered widely
 
   Footprint footprint_at(float t) const {
-    return {width + t * spread,
-            edges.origin_dx + t * edges.direction_dx,
-            edges.origin_dy + t * edges.direction_dy,
-            aside_origin + t * aside_direction,
-            is_coarse,
-            is_rough};
+    Footprint footprint;
+    footprint.width = width + t * spread;
+    footprint.is_rough = is_rough;
+    return footprint;
   }
   /// Of a ray that goes on from there.
-  RayCone at(float t) const {
-    RayCone next;
-    next.width = width + t * spread;
-    next.spread = spread;
-    next.is_rough = is_rough;
-    return next;
-  }
+  RaySpread at(float t) const { return {width + t * spread, spread, is_rough}; }
   /// Likewise, of one whose direction was chosen with that density per steradian: it stands for about 1 /
   /// pdf, shared by the many that are chosen there.
   void scatter(float pdf) {
@@ -44,6 +31,33 @@ struct RayCone {
     spread = std::max(spread, std::min(kWidest, kShare / std::sqrt(pdf)));
     is_rough = is_rough || spread > kRough;
   }
+};
+
+/// What the eye's rays know besides: how they differ from the ray through the middle of what they stand for,
+/// and how that one changes over the edges of it.
+struct RayCone {
+  RaySpread spread{};
+  Vector3f aside_origin{0}, aside_direction{0};  ///< like the differential's
+  RayDifferential edges{};
+  bool is_coarse = false;  ///< few rays share the pixel
+
+  Vector3f dx_at(float t) const { return edges.origin_dx + t * edges.direction_dx; }
+  Vector3f dy_at(float t) const { return edges.origin_dy + t * edges.direction_dy; }
+  /// Whether all that is known are the edges: it is one of many that share a pixel.
+  bool is_one_of_many() const {
+    const bool has_edges = edges.direction_dx != Vector3f(0) || edges.origin_dx != Vector3f(0);
+    return has_edges && !is_coarse && aside_origin == Vector3f(0) && aside_direction == Vector3f(0);
+  }
+  Footprint footprint_at(float t) const {
+    Footprint footprint = spread.footprint_at(t);
+    footprint.dx = dx_at(t);
+    footprint.dy = dy_at(t);
+    footprint.aside = aside_origin + t * aside_direction;
+    footprint.is_coarse = is_coarse;
+    return footprint;
+  }
+  /// Of a ray that goes on from there.
+  RayCone at(float t) const { return {spread.at(t)}; }
 };
 
 struct ShadingPoint {

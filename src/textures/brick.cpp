@@ -5,13 +5,13 @@
 namespace raytracer {
 namespace {
 
-class Brick final : public Pattern {
+class Brick final : public LanePattern<Brick> {
  public:
-  Brick(PatternSetup setup, const BrickShape& shape) : Pattern(std::move(setup)), shape_(shape) {}
+  Brick(PatternSetup setup, const BrickShape& shape) : LanePattern(std::move(setup)), shape_(shape) {}
 
- protected:
-  float share(const PatternPoint& point) const override {
-    const PlanePoint plane = plane_point(point, map());
+  template <PatternMap kMap>
+  [[gnu::always_inline]] float share_of(const PatternPoint& point) const {
+    const PlanePoint plane = plane_point(point, kMap);
     const float row = plane.position.y / shape_.height;
     const float along = plane.position.x + shape_.offset * std::floor(row);
     const float in_row = square_wave(row, 1 - shape_.mortar / shape_.height, plane.extent.y / shape_.height);

@@ -17,16 +17,35 @@ class Cells final : public Pattern {
  protected:
   float share(const PatternPoint& point) const override {
     const float width = point.width(), left = detail_left(width);
-    const float mean = sort_ == CellSort::kDistance ? kMeanDistance
-                       : sort_ == CellSort::kFlat   ? kMeanFlat
-                                                    : std::min(1.0F, kMeanBorderPerWidth * border_);
-    if (left <= 0) return mean;
-    return mean + left * (detail(point, width) - mean);
+    if (left <= 0) return mean();
+    const NearestPoints points = nearest_points(point.position, jitter_, map() == PatternMap::kUv);
+    return mean() + left * (detail(points, width) - mean());
+  }
+
+  void shares(const PatternBlock& points, NumberBlock& share) const override {
+    bool is_any_left = false;
+    NumberBlock width, left;
+    for (int i = 0; i < kBlockSize; ++i) {
+      width.at[i] = PatternPoint::longer_of(points.dx.at(i), points.dy.at(i));
+      left.at[i] = detail_left(width.at[i]);
+      is_any_left |= left.at[i] > 0;
+    }
+    NearestBlock nearest{};
+    if (is_any_left) nearest_points(points.position, jitter_, map() == PatternMap::kUv, nearest);
+    for (int i = 0; i < points.count; ++i) {
+      const float fine = left.at[i] > 0 ? left.at[i] * (detail(nearest.at(i), width.at[i]) - mean()) : 0.0F;
+      share.at[i] = mean() + fine;
+    }
   }
 
  private:
-  float detail(const PatternPoint& point, float width) const {
-    const NearestPoints points = nearest_points(point.position, jitter_, map() == PatternMap::kUv);
+  float mean() const {
+    return sort_ == CellSort::kDistance ? kMeanDistance
+           : sort_ == CellSort::kFlat   ? kMeanFlat
+                                        : std::min(1.0F, kMeanBorderPerWidth * border_);
+  }
+
+  float detail(const NearestPoints& points, float width) const {
     if (sort_ == CellSort::kDistance) return points.nearest;
     if (sort_ == CellSort::kFlat) return points.number;
     // Half the difference of the distances is about how far the border is.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/with_constant.hpp"
 #include "textures/patterns.hpp"
 
 namespace raytracer {
@@ -15,7 +16,7 @@ class Checker final : public Pattern {
  protected:
   // A footprint that is long and lies askew is cut into shorter ones, whose boxes fit it better.
   float share(const PatternPoint& point) const override {
-    if (point.is_rough) return share_somewhere(point);
+    if (point.is_rough) return share_somewhere(point, axes());
     const bool is_dy_longer = glm::dot(point.dy, point.dy) > glm::dot(point.dx, point.dx);
     const Vector3f& along = is_dy_longer ? point.dy : point.dx;
     const Vector3f& across = is_dy_longer ? point.dx : point.dy;
@@ -32,24 +33,36 @@ class Checker final : public Pattern {
     return 0.5F - 0.5F * sum / pieces;
   }
 
+  void shares(const PatternBlock& points, NumberBlock& share) const override {
+    if (!points.is_rough) {
+      Pattern::shares(points, share);
+      return;
+    }
+    with_constant<2, 3>(axes(), [&](auto axes) {
+      for (int i = 0; i < kBlockSize; ++i) share.at[i] = share_somewhere(points.at(i), axes);
+    });
+  }
+
  private:
-  float share_somewhere(const PatternPoint& point) const {
-    if (glm::dot(point.dx, point.dx) > 1) return 0.5F;
+  int axes() const { return map() == PatternMap::kUv ? 2 : 3; }
+
+  static float share_somewhere(const PatternPoint& point, int axes) {
     int cell = 0;
-    for (int axis = 0; axis < (map() == PatternMap::kUv ? 2 : 3); ++axis)
-      cell ^= cell_of(point.position[axis]);
-    return static_cast<float>(cell & 1);
+    for (int axis = 0; axis < axes; ++axis) cell ^= cell_of(point.position[axis]);
+    const auto share = static_cast<float>(cell & 1);
+    return glm::dot(point.dx, point.dx) > 1 ? 0.5F : share;
   }
 
   static int cell_of(float x) {
     constexpr float kWhole = 0x1p24F;  // from here on all are even
-    return std::abs(x) < kWhole ? static_cast<int>(std::floor(x)) : 0;
+    const float near = std::abs(x) < kWhole ? x : 0.0F;
+    return static_cast<int>(std::floor(near));
   }
 
   // Each mean is a difference of integrals over a width; in double, as they are close to each other.
   float parity(const Vector3f& place, const Vector3f& width) const {
     double differences = 1, widths = 1;
-    for (int axis = 0; axis < (map() == PatternMap::kUv ? 2 : 3); ++axis) {
+    for (int axis = 0; axis < axes(); ++axis) {
       const auto x = static_cast<double>(place[axis]), across = static_cast<double>(width[axis]);
       constexpr double kPoint = 1e-5;
       if (across > kPoint) {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "core/numeric.hpp"
@@ -7,16 +6,17 @@
 namespace raytracer {
 namespace {
 
-class Dots final : public Pattern {
+class Dots final : public LanePattern<Dots> {
  public:
-  Dots(PatternSetup setup, float radius) : Pattern(std::move(setup)), radius_(radius) {}
+  Dots(PatternSetup setup, float radius) : LanePattern(std::move(setup)), radius_(radius) {}
 
- protected:
-  float share(const PatternPoint& point) const override {
-    const PlanePoint plane = plane_point(point, map());
+  template <PatternMap kMap>
+  [[gnu::always_inline]] float share_of(const PatternPoint& point) const {
+    const PlanePoint plane = plane_point(point, kMap);
     const Vector2f within = plane.position - glm::floor(plane.position) - 0.5F;
-    const float width = std::max({plane.extent.x, plane.extent.y, 1e-5F});
-    const float covered = std::clamp(0.5F + (radius_ - glm::length(within)) / width, 0.0F, 1.0F);
+    const float longer = plane.extent.x > plane.extent.y ? plane.extent.x : plane.extent.y;
+    const float width = longer > 1e-5F ? longer : 1e-5F;
+    const float covered = glm::clamp(0.5F + (radius_ - glm::length(within)) / width, 0.0F, 1.0F);
     const float mean = static_cast<float>(kPi) * radius_ * radius_;
     return 1 - (mean + detail_left(width) * (covered - mean));
   }

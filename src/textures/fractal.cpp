@@ -1,54 +1,101 @@
 #include "textures/fractal.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "sampling/sobol.hpp"
-#include "textures/pattern.hpp"
 
 namespace raytracer {
 namespace {
 
-constexpr std::uint32_t kAlongX = 0x9E3779B1U, kAlongY = 0x85EBCA77U, kAlongZ = 0xC2B2AE3DU;
-
+// In bits, since compilers make branches of choices between numbers, and then no vectors.
 float gradient(std::uint32_t hash, float x, float y, float z) {
   const std::uint32_t direction = ((hash >> 16U) * 12U) >> 16U;
-  const float first = direction < 8 ? x : y;
-  const float second = direction < 4 ? y : z;
-  return ((direction & 1U) != 0 ? -first : first) + ((direction & 2U) != 0 ? -second : second);
+  const auto choose = [&](std::uint32_t below, float one, float other) {
+    const std::uint32_t is_below = 0U - static_cast<std::uint32_t>(direction < below);
+    return (std::bit_cast<std::uint32_t>(one) & is_below) | (std::bit_cast<std::uint32_t>(other) & ~is_below);
+  };
+  const std::uint32_t first = choose(8, x, y) ^ (direction & 1U) << 31U;
+  const std::uint32_t second = choose(4, y, z) ^ (direction & 2U) << 30U;
+  return std::bit_cast<float>(first) + std::bit_cast<float>(second);
 }
 
 float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 float blend(float a, float b, float share) { return a + (b - a) * share; }
+
+/// One octave of a sum, at a point or at sixteen: where it is, and what a footprint leaves of it.
+void go_to_next_octave(Vector3f& p, float& width) {
+  width *= 2;
+  // Moved aside, so that the zeros of the octaves do not meet.
+  p = 2.0F * p + Vector3f(17.31F, 5.77F, 11.13F);
+}
+
+float left_of_octave(float width) {
+  const float left = detail_left(width);
+  return width < kNoDetail ? left : 0.0F;
+}
 
 // Adds term(noise, what is left of it) for each octave, weighted, over the sum of the weights.
 template <class Term>
 float sum_of_octaves(Vector3f p, int octaves, float gain, float width, const Term& term) {
   float sum = 0, weights = 0, weight = 1;
   for (int i = 0; i < octaves; ++i) {
-    const float left = width < kNoDetail ? detail_left(width) : 0.0F;
+    const float left = left_of_octave(width);
     sum += weight * term(left > 0 ? lattice_noise(p) : 0.0F, left);
     weights += weight;
     weight *= gain;
-    width *= 2;
-    // Moved aside, so that the zeros of the octaves do not meet.
-    p = 2.0F * p + Vector3f(17.31F, 5.77F, 11.13F);
+    go_to_next_octave(p, width);
   }
   return sum / weights;
 }
 
+// lattice_noise(), made of what has no branches.
+[[gnu::always_inline]] inline float lattice_noise_of_lane(const Vector3f& p) {
+  const glm::ivec3 cell = cell_of(p);
+  const Vector3f f = glm::clamp(p - Vector3f(cell), 0.0F, 1.0F);
+  const Vector3f share = {fade(f.x), fade(f.y), fade(f.z)};
+  const auto corner = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return gradient(cell_hash(cell + glm::ivec3(x, y, z)), f.x - static_cast<float>(x),
+                    f.y - static_cast<float>(y), f.z - static_cast<float>(z));
+  };
+  const auto along_x = [&](std::uint32_t y, std::uint32_t z) {
+    return blend(corner(0, y, z), corner(1, y, z), share.x);
+  };
+  const auto along_y = [&](std::uint32_t z) { return blend(along_x(0, z), along_x(1, z), share.y); };
+  const float noise = blend(along_y(0), along_y(1), share.z);
+  return noise < -1 ? -1.0F : noise > 1 ? 1.0F : noise;
+}
+
+// sum_of_octaves() at sixteen points.
+template <class Term>
+void sums_of_octaves(Vector3Block p, int octaves, float gain, NumberBlock width, const Term& term,
+                     NumberBlock& result) {
+  NumberBlock sum{}, noise{}, left;
+  float weights = 0, weight = 1;
+  for (int octave = 0; octave < octaves; ++octave) {
+    float most = 0;
+    for (int i = 0; i < kBlockSize; ++i) left.at[i] = left_of_octave(width.at[i]);
+    for (int i = 0; i < kBlockSize; ++i) most = std::max(most, left.at[i]);
+    if (most > 0) lattice_noise(p, noise);
+    for (int i = 0; i < kBlockSize; ++i) {
+      sum.at[i] += weight * term(left.at[i] > 0 ? noise.at[i] : 0.0F, left.at[i]);
+    }
+    weights += weight;
+    weight *= gain;
+    for (int i = 0; i < kBlockSize; ++i) {
+      Vector3f place = p.at(i);
+      go_to_next_octave(place, width.at[i]);
+      p.set(i, place);
+    }
+  }
+  for (int i = 0; i < kBlockSize; ++i) result.at[i] = sum.at[i] / weights;
+}
+
+float faded(float noise, float left) { return noise * left; }
+float faded_billow(float noise, float left) { return blend(kMeanAbsoluteNoise, std::abs(noise), left); }
+
 }  // namespace
-
-std::uint32_t cell_hash(const glm::ivec3& cell) {
-  const auto x = static_cast<std::uint32_t>(cell.x), y = static_cast<std::uint32_t>(cell.y),
-             z = static_cast<std::uint32_t>(cell.z);
-  return hash_bits(x * kAlongX + hash_bits(y * kAlongY + hash_bits(z + kAlongZ)));
-}
-
-glm::ivec3 cell_of(const Vector3f& p) {
-  const Vector3f cell = glm::floor(glm::clamp(p, -1e9F, 1e9F));
-  return {static_cast<int>(cell.x), static_cast<int>(cell.y), static_cast<int>(cell.z)};
-}
 
 // The eight corners of the cell side by side, the first two along x, so that the compiler does them at once.
 float lattice_noise(const Vector3f& p) {
@@ -74,13 +121,29 @@ float lattice_noise(const Vector3f& p) {
 }
 
 float fractal_noise(const Vector3f& p, int octaves, float gain, float width) {
-  return sum_of_octaves(p, octaves, gain, width, [](float noise, float left) { return noise * left; });
+  return sum_of_octaves(p, octaves, gain, width, faded);
 }
 
 float turbulence_noise(const Vector3f& p, int octaves, float gain, float width) {
-  return sum_of_octaves(p, octaves, gain, width, [](float noise, float left) {
-    return blend(kMeanAbsoluteNoise, std::abs(noise), left);
-  });
+  return sum_of_octaves(p, octaves, gain, width, faded_billow);
+}
+
+void lattice_noise(const Vector3Block& p, NumberBlock& noise) {
+  NumberBlock result;  // of its own, as compilers fear that `noise` is p
+  for (int i = 0; i < kBlockSize; ++i) result.at[i] = lattice_noise_of_lane(p.at(i));
+  noise = result;
+}
+
+void fractal_noise(const Vector3Block& p, int octaves, float gain, const NumberBlock& width,
+                   NumberBlock& noise) {
+  const auto term = [](float one, float left) { return faded(one, left); };
+  sums_of_octaves(p, octaves, gain, width, term, noise);
+}
+
+void turbulence_noise(const Vector3Block& p, int octaves, float gain, const NumberBlock& width,
+                      NumberBlock& noise) {
+  const auto term = [](float one, float left) { return faded_billow(one, left); };
+  sums_of_octaves(p, octaves, gain, width, term, noise);
 }
 
 }  // namespace raytracer

@@ -4,24 +4,47 @@
 #include <cstdint>
 
 #include "raytracer/vector3f.hpp"
+#include "sampling/sobol.hpp"
+#include "textures/pattern.hpp"
 
 namespace raytracer {
 
+/// Odd numbers far from each other.
+inline constexpr std::uint32_t kAlongX = 0x9E3779B1U, kAlongY = 0x85EBCA77U, kAlongZ = 0xC2B2AE3DU;
+
 /// 32 well-mixed bits about a cell of the lattice; the same on every machine.
-std::uint32_t cell_hash(const glm::ivec3& cell);
+inline std::uint32_t cell_hash(const glm::ivec3& cell) {
+  const auto x = static_cast<std::uint32_t>(cell.x), y = static_cast<std::uint32_t>(cell.y),
+             z = static_cast<std::uint32_t>(cell.z);
+  return hash_bits(x * kAlongX + hash_bits(y * kAlongY + hash_bits(z + kAlongZ)));
+}
 
 /// The cell of a point; points beyond a billion fall into the outermost ones.
-glm::ivec3 cell_of(const Vector3f& p);
+inline glm::ivec3 cell_of(const Vector3f& p) {
+  const Vector3f cell = glm::floor(glm::clamp(p, -1e9F, 1e9F));
+  return {static_cast<int>(cell.x), static_cast<int>(cell.y), static_cast<int>(cell.z)};
+}
 
 /// Perlin's improved gradient noise (Perlin 2002) in [-1, 1]; 0 at whole coordinates.
 float lattice_noise(const Vector3f& p);
+
+/// The very same at sixteen points.
+void lattice_noise(const Vector3Block& p, NumberBlock& noise);
 
 /// The sum of octaves, each twice as fine and `gain` times as strong as the one before, in [-1, 1], mean 0.
 /// An octave fades out where it is finer than `width`, the footprint's.
 float fractal_noise(const Vector3f& p, int octaves, float gain, float width);
 
+/// The very same at sixteen points.
+void fractal_noise(const Vector3Block& p, int octaves, float gain, const NumberBlock& width,
+                   NumberBlock& noise);
+
 /// Likewise of the octaves' absolute values, in [0, 1]; a faded octave becomes its mean.
 float turbulence_noise(const Vector3f& p, int octaves, float gain, float width);
+
+/// The very same at sixteen points.
+void turbulence_noise(const Vector3Block& p, int octaves, float gain, const NumberBlock& width,
+                      NumberBlock& noise);
 
 /// The mean of |lattice_noise|.
 inline constexpr float kMeanAbsoluteNoise = 0.2202f;

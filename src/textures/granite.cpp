@@ -10,18 +10,48 @@ class Granite final : public Pattern {
   using Pattern::Pattern;
 
  protected:
+  // Grains of three sizes, bent at their edges, each of a mixture of its own.
   float share(const PatternPoint& point) const override {
     const float width = point.width();
-    const Vector3f& p = point.position;
-    // Grains of three sizes, bent at their edges, each of a mixture of its own.
+    const Vector3f bent = point.position + kBend * lattice_noise(kBends * point.position);
     float sum = 0;
-    const Vector3f bent = p + 0.3F * lattice_noise(3.0F * p);
-    for (const float size : {1.0F, 2.3F, 5.1F}) {
+    for (const float size : kSizes) {
       const float left = detail_left(size * width);
-      sum += left > 0 ? 0.5F + left * (nearest_points(size * bent, 1, false).number - 0.5F) : 0.5F;
+      sum += faded(left > 0 ? nearest_points(size * bent, 1, false).number : 0.5F, left);
     }
-    return 0.5F + 1.2F * (sum / 3 - 0.5F);
+    return contrasted(sum);
   }
+
+  void shares(const PatternBlock& points, NumberBlock& share) const override {
+    Vector3Block bent, place;
+    NumberBlock noise, width, sum{}, left;
+    for (int i = 0; i < kBlockSize; ++i) {
+      place.set(i, kBends * points.position.at(i));
+      width.at[i] = PatternPoint::longer_of(points.dx.at(i), points.dy.at(i));
+    }
+    lattice_noise(place, noise);
+    for (int i = 0; i < kBlockSize; ++i) bent.set(i, points.position.at(i) + kBend * noise.at[i]);
+    NearestBlock nearest{};
+    for (const float size : kSizes) {
+      bool is_any_left = false;
+      for (int i = 0; i < kBlockSize; ++i) {
+        left.at[i] = detail_left(size * width.at[i]);
+        is_any_left |= left.at[i] > 0;
+        place.set(i, size * bent.at(i));
+      }
+      if (is_any_left) nearest_points(place, 1, false, nearest);
+      for (int i = 0; i < kBlockSize; ++i) {
+        sum.at[i] += faded(left.at[i] > 0 ? nearest.number.at[i] : 0.5F, left.at[i]);
+      }
+    }
+    for (int i = 0; i < kBlockSize; ++i) share.at[i] = contrasted(sum.at[i]);
+  }
+
+ private:
+  static constexpr float kBend = 0.3F, kBends = 3, kSizes[] = {1.0F, 2.3F, 5.1F};
+
+  static float faded(float number, float left) { return 0.5F + left * (number - 0.5F); }
+  static float contrasted(float sum) { return 0.5F + 1.2F * (sum / 3 - 0.5F); }
 };
 
 }  // namespace

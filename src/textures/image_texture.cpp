@@ -1,10 +1,12 @@
 #include "textures/image_texture.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "core/numeric.hpp"
+#include "textures/texture_block.hpp"
 
 namespace raytracer {
 namespace {
@@ -71,7 +73,7 @@ Probes probes_for(const Ellipse& ellipse, int level_count) {
   return probes;
 }
 
-class ImageTexture : public Texture {
+class ImageTexture final : public Texture {
  public:
   ImageTexture(std::shared_ptr<const TexelPyramid> pyramid, const TexturePlacement& placement, bool is_mean)
       : pyramid_(std::move(pyramid)),
@@ -90,10 +92,31 @@ class ImageTexture : public Texture {
 
   Color3f at(const TexturePoint& point) const override {
     const Vector2f uv = placed(point.uv) + offset_, dx = placed(point.uv_dx), dy = placed(point.uv_dy);
-    const Color3f color = point.is_rough    ? somewhere(uv, dx, dy)
-                          : point.is_coarse ? over_parallelogram(uv, dx, dy)
-                                            : average(uv, dx, dy, kSmallOfMany);
-    return is_mean_ ? Color3f((color.x + color.y + color.z) / 3) : color;
+    return finished(point.is_rough    ? somewhere(uv, texels_of(dx, dy))
+                    : point.is_coarse ? over_parallelogram(uv, dx, dy)
+                                      : average(uv, dx, dy, kSmallOfMany));
+  }
+
+  void colors_at(const TextureBlock& points, ColorBlock& colors) const override {
+    Vector2Block uv, dx, dy;
+    for (int i = 0; i < kBlockSize; ++i) {
+      uv.set(i, placed(points.uv.at(i)) + offset_);
+      dx.set(i, placed(points.uv_dx.at(i)));
+      dy.set(i, placed(points.uv_dy.at(i)));
+    }
+    alignas(64) float texels[kBlockSize];
+    if (points.is_rough) {
+      for (int i = 0; i < kBlockSize; ++i) texels[i] = texels_of(dx.at(i), dy.at(i));
+      for (int i = 0; i < points.count; ++i) colors.set(i, finished(somewhere(uv.at(i), texels[i])));
+    } else {
+      BlockMask is_large;
+      for (int i = 0; i < kBlockSize; ++i) is_large.set(i, !is_small(dx.at(i), dy.at(i), kSmallOfMany));
+      pyramid_->bilinear(uv, points.count, wrap_, colors);
+      for (int i = 0; i < points.count; ++i) {
+        if (is_large.has(i)) colors.set(i, average(uv.at(i), dx.at(i), dy.at(i), kSmallOfMany));
+      }
+      for (int i = 0; i < kBlockSize; ++i) colors.set(i, finished(colors.at(i)));
+    }
   }
 
   bool is_exact() const override { return true; }
@@ -101,16 +124,27 @@ class ImageTexture : public Texture {
  private:
   Vector2f placed(const Vector2f& uv) const { return uv.x * along_u_ + uv.y * along_v_; }
 
-  // One look at the level whose texels are about as large.
-  Color3f somewhere(const Vector2f& uv, const Vector2f& dx, const Vector2f& dy) const {
-    const float texels = std::abs(dx.x * dy.y - dx.y * dy.x) * size_.x * size_.y;
-    const int level = texels >= 2 && texels < kInfinity ? (std::ilogb(texels) + 1) / 2 : 0;
-    return pyramid_->bilinear(std::min(level, pyramid_->level_count() - 1), uv, wrap_);
+  Color3f finished(const Color3f& color) const {
+    return is_mean_ ? Color3f((color.x + color.y + color.z) / 3) : color;
+  }
+
+  // How many texels lie in a footprint.
+  float texels_of(const Vector2f& dx, const Vector2f& dy) const {
+    return std::abs(dx.x * dy.y - dx.y * dy.x) * size_.x * size_.y;
+  }
+
+  // One look at the level whose texels are about as large as the footprint.
+  Color3f somewhere(const Vector2f& uv, float texels) const {
+    constexpr int kExponent = 23, kBias = 127;
+    const bool is_some = texels >= 2 && texels < kInfinity;
+    const int exponent = (std::bit_cast<std::int32_t>(texels) >> kExponent) - kBias;
+    const int level = is_some ? (exponent + 1) / 2 : 0;
+    return pyramid_->nearest(std::min(level, pyramid_->level_count() - 1), uv, wrap_);
   }
 
   // Half a texel is blurred more by being bilinear than by its size. Of samples with many neighbours, which
   // will show what is lost between them, that goes for a whole one.
-  static constexpr float kSmall = 0.25f, kSmallOfMany = 1;
+  static constexpr float kSmall = 0.25f, kSmallOfMany = 2;
 
   // A look blurs softly beyond what it stands for. Four of a quarter each come close to the parallelogram
   // that a sample stands for: the error of the strongest detail, black and white noise, falls from 3.1 to 1.4
@@ -125,9 +159,9 @@ class ImageTexture : public Texture {
   }
 
   bool is_small(const Vector2f& dx, const Vector2f& dy, float small) const {
-    if (pyramid_->level_count() == 1) return true;
     const Vector2f right = dx * size_, below = dy * size_;
-    return glm::dot(right, right) + glm::dot(below, below) < small;
+    const bool is_between_texels = glm::dot(right, right) + glm::dot(below, below) < small;
+    return is_between_texels || pyramid_->level_count() == 1;
   }
 
   Color3f average(const Vector2f& uv, const Vector2f& dx, const Vector2f& dy, float small) const {

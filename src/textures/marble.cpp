@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/lane_math.hpp"
 #include "core/numeric.hpp"
 #include "textures/fractal.hpp"
 #include "textures/patterns.hpp"
@@ -19,15 +20,33 @@ class Marble final : public Pattern {
 
  protected:
   float share(const PatternPoint& point) const override {
-    constexpr int kOctaves = 6;
-    const float width = point.width();
-    const float bent = point.position.x + turbulence_ * fractal_noise(point.position, kOctaves, 0.55F, width);
-    const float wave = 0.5F + 0.5F * std::sin(static_cast<float>(2 * kPi) * bent);
-    const float left = detail_left(2 * width);  // a vein is about half a period
-    return mean_ + left * (std::pow(wave, sharpness_) - mean_);
+    const float width = point.width(), noise = fractal_noise(point.position, kOctaves, kGain, width);
+    return vein(point.position.x + turbulence_ * noise, width, sharpness_, mean_);
+  }
+
+  void shares(const PatternBlock& points, NumberBlock& share) const override {
+    NumberBlock width, noise;
+    for (int i = 0; i < kBlockSize; ++i) {
+      width.at[i] = PatternPoint::longer_of(points.dx.at(i), points.dy.at(i));
+    }
+    fractal_noise(points.position, kOctaves, kGain, width, noise);
+    const float turbulence = turbulence_, sharpness = sharpness_, mean = mean_;
+    for (int i = 0; i < kBlockSize; ++i) {
+      const float bent = points.position.x[i] + turbulence * noise.at[i];
+      share.at[i] = vein(bent, width.at[i], sharpness, mean);
+    }
   }
 
  private:
+  static constexpr int kOctaves = 6;
+  static constexpr float kGain = 0.55F;
+
+  static float vein(float x, float width, float sharpness, float mean) {
+    const float wave = 0.5F + 0.5F * sine_of_turns(x);
+    const float left = detail_left(2 * width);  // a vein is about half a period
+    return mean + left * (power_of(wave, sharpness) - mean);
+  }
+
   float turbulence_, sharpness_, mean_;
 };
 

@@ -78,9 +78,13 @@ bool varies_in_color_alone(const MaterialTextures& textures) {
          textures.normal_map == nullptr && textures.bump == nullptr;
 }
 
-Color3f color_at(const Material& material, const TexturePoint& point) {
-  if (!material.textures || !material.textures->color) return material.color;
-  return limited(averaged(*material.textures->color, point), 0, 1);
+Color3f color_at(const Texture& color, const TexturePoint& point) {
+  return limited(averaged(color, point), 0, 1);
+}
+
+void colors_at(const Texture& color, const TextureBlock& points, ColorBlock& colors) {
+  color.colors_at(points, colors);
+  for (int i = 0; i < kBlockSize; ++i) colors.set(i, limited(colors.at(i), 0, 1));
 }
 
 float alpha_at(const Material& material, const TexturePoint& point) {

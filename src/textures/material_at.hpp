@@ -4,6 +4,7 @@
 #include "raytracer/material.hpp"
 #include "raytracer/shape.hpp"
 #include "raytracer/texture.hpp"
+#include "textures/texture_block.hpp"
 
 namespace raytracer {
 
@@ -13,8 +14,10 @@ MaterialValues material_at(const Material& material, const TexturePoint& point);
 /// Whether textures say nothing but its colour: all else is the same everywhere.
 bool varies_in_color_alone(const MaterialTextures& textures);
 
-/// Its colour alone, for those.
-Color3f color_at(const Material& material, const TexturePoint& point);
+/// What a texture for its colour makes of that colour.
+Color3f color_at(const Texture& color, const TexturePoint& point);
+/// Likewise of as many as a block holds.
+void colors_at(const Texture& color, const TextureBlock& points, ColorBlock& colors);
 
 /// How much of the surface is there, 0..1: alpha alone, for rays that ask only for that.
 float alpha_at(const Material& material, const TexturePoint& point);

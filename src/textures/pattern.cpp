@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/with_constant.hpp"
+
 namespace raytracer {
 namespace {
 
@@ -11,52 +13,86 @@ constexpr float kBeneath = 1e-4F;
 
 }  // namespace
 
-PatternPoint Pattern::own_point(const TexturePoint& point) const {
-  const PatternSpace& space = setup_.space;
+void TextureInput::colors_at(const TextureBlock& points, ColorBlock& colors) const {
+  if (texture) {
+    texture->colors_at(points, colors);
+  } else {
+    for (int i = 0; i < kBlockSize; ++i) colors.set(i, color);
+  }
+}
+
+namespace {
+
+Vector3f own_normal(const glm::mat3& linear, const Vector3f& normal) {
+  const Vector3f own = linear * normal;
+  const float length = glm::length(own), scale = length > 0 ? length : 1.0F;
+  const float z = length > 0 ? own.z : 1.0F;
+  return Vector3f(own.x, own.y, z) / scale;
+}
+
+float mixed(float a, float b, float share) {
+  const float mean = (1 - share) * a + share * b;
+  return share == 0 ? a : share == 1 ? b : mean;
+}
+
+// Without branches: it is done to blocks of points.
+template <PatternMap kMap>
+[[gnu::always_inline]] inline PatternPoint own_point(const PatternSpace& space, const TexturePoint& point) {
   PatternPoint own;
   own.is_rough = point.is_rough;
-  if (space.map == PatternMap::kUv) {
+  if constexpr (kMap == PatternMap::kUv) {
     own.position = space.linear * Vector3f(point.uv, 0) + space.translation;
     own.dx = space.linear * Vector3f(point.uv_dx, 0);
     own.dy = space.linear * Vector3f(point.uv_dy, 0);
-    return own;
+  } else {
+    own.normal = own_normal(space.linear, point.normal);
+    own.position = space.linear * point.position + space.translation - kBeneath * own.normal;
+    own.dx = space.linear * point.position_dx;
+    own.dy = space.linear * point.position_dy;
   }
-  own.position = space.linear * point.position + space.translation;
-  own.dx = space.linear * point.position_dx;
-  own.dy = space.linear * point.position_dy;
-  const Vector3f normal = space.linear * point.normal;
-  const float length = glm::length(normal);
-  if (length > 0) own.normal = normal / length;
-  own.position -= kBeneath * own.normal;
   return own;
 }
 
+PatternPoint own_point(const PatternSpace& space, const TexturePoint& point) {
+  return space.map == PatternMap::kUv ? own_point<PatternMap::kUv>(space, point)
+                                      : own_point<PatternMap::kPosition>(space, point);
+}
+
+void set_own_points(const PatternSpace& in_space, const TextureBlock& points, PatternBlock& own) {
+  own.count = points.count;
+  own.is_rough = points.is_rough;
+  const PatternSpace space = in_space;
+  with_constant<PatternMap::kUv, PatternMap::kPosition>(space.map, [&](auto map) {
+    for (int i = 0; i < kBlockSize; ++i) own.set(i, own_point<map>(space, points.at(i)));
+  });
+}
+
+}  // namespace
+
 Color3f Pattern::at(const TexturePoint& point) const {
-  const float b = std::clamp(share(own_point(point)), 0.0F, 1.0F);
+  const float b = std::clamp(share(own_point(setup_.space, point)), 0.0F, 1.0F);
   if (b == 0) return setup_.a.at(point);
   if (b == 1) return setup_.b.at(point);
   return (1 - b) * setup_.a.at(point) + b * setup_.b.at(point);
 }
 
-PlanePoint plane_point(const PatternPoint& point, PatternMap map) {
-  const Vector3f p = point.position, extent = point.extent(), n = glm::abs(point.normal);
-  if (map == PatternMap::kUv || (n.z >= n.x && n.z >= n.y)) return {{p.x, p.y}, {extent.x, extent.y}};
-  if (n.x > n.y) return {{p.z, p.y}, {extent.z, extent.y}};
-  return {{p.x, p.z}, {extent.x, extent.z}};
+void Pattern::colors_at(const TextureBlock& points, ColorBlock& colors) const {
+  PatternBlock own;
+  set_own_points(setup_.space, points, own);
+  NumberBlock share;
+  shares(own, share);
+  ColorBlock b;
+  setup_.a.colors_at(points, colors);
+  setup_.b.colors_at(points, b);
+  for (int i = 0; i < kBlockSize; ++i) {
+    const float s = std::clamp(share.at[i], 0.0F, 1.0F);
+    colors.set(i,
+               {mixed(colors.x[i], b.x[i], s), mixed(colors.y[i], b.y[i], s), mixed(colors.z[i], b.z[i], s)});
+  }
 }
 
-float square_wave(float x, float duty, float width) {
-  // In double, from near the origin: the two integrals are large and close to each other.
-  const double at = static_cast<double>(x) - std::floor(static_cast<double>(x));
-  if (!(width > 1e-5F)) return at < static_cast<double>(duty) ? 1.0F : 0.0F;
-  const auto integral = [&](double to) {
-    const double whole = std::floor(to);
-    return static_cast<double>(duty) * whole + std::min(to - whole, static_cast<double>(duty));
-  };
-  const double half = static_cast<double>(width) / 2;
-  return static_cast<float>((integral(at + half) - integral(at - half)) / (2 * half));
+void Pattern::shares(const PatternBlock& points, NumberBlock& share) const {
+  for (int i = 0; i < points.count; ++i) share.at[i] = this->share(points.at(i));
 }
-
-float detail_left(float width) { return 1 - glm::smoothstep(0.4F, kNoDetail, width); }
 
 }  // namespace raytracer

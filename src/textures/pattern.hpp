@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/with_constant.hpp"
 #include "raytracer/texture.hpp"
+#include "textures/texture_block.hpp"
 
 namespace raytracer {
 
@@ -18,6 +20,7 @@ struct TextureInput {
   TextureInput(const Color3f& same) : color(same) {}
   TextureInput(TexturePointer other) : texture(std::move(other)) {}
   Color3f at(const TexturePoint& point) const { return texture ? texture->at(point) : color; }
+  void colors_at(const TextureBlock& points, ColorBlock& colors) const;
   bool is_exact() const { return texture == nullptr || texture->is_exact(); }
 };
 
@@ -42,16 +45,49 @@ struct PatternPoint {
   bool is_rough = false;  ///< as TexturePoint has it
 
   /// The standard-deviation-preserving width of the footprint along each axis.
-  Vector3f extent() const { return glm::sqrt(dx * dx + dy * dy); }
+  Vector3f extent() const {
+    const Vector3f square = dx * dx + dy * dy;
+    return {std::sqrt(square.x), std::sqrt(square.y), std::sqrt(square.z)};
+  }
   /// The longer edge of the footprint.
-  float width() const { return std::sqrt(std::max(glm::dot(dx, dx), glm::dot(dy, dy))); }
+  float width() const { return longer_of(dx, dy); }
+  static float longer_of(const Vector3f& dx, const Vector3f& dy) {
+    const float x = glm::dot(dx, dx), y = glm::dot(dy, dy);
+    return std::sqrt(x < y ? y : x);
+  }
+};
+
+/// Sixteen of them; lanes from `count` on hold anything that is a number.
+struct PatternBlock {
+  int count;
+  bool is_rough;
+  Vector3Block position, normal, dx, dy;
+
+  PatternPoint at(int i) const { return {position.at(i), normal.at(i), dx.at(i), dy.at(i), is_rough}; }
+  void set(int i, const PatternPoint& point) {
+    position.set(i, point.position);
+    normal.set(i, point.normal);
+    dx.set(i, point.dx);
+    dy.set(i, point.dy);
+  }
+};
+
+/// One number for each lane.
+struct alignas(64) NumberBlock {
+  float at[kBlockSize];
 };
 
 /// A plane's coordinates: x and y of uv; else the two axes that lie most along the surface.
 struct PlanePoint {
   Vector2f position, extent;
 };
-PlanePoint plane_point(const PatternPoint& point, PatternMap map);
+inline PlanePoint plane_point(const PatternPoint& point, PatternMap map) {
+  const Vector3f p = point.position, extent = point.extent(), n = glm::abs(point.normal);
+  const bool is_z = (map == PatternMap::kUv) | ((n.z >= n.x) & (n.z >= n.y));
+  const bool is_x = !is_z & (n.x > n.y);
+  return {{is_x ? p.z : p.x, is_z | is_x ? p.y : p.z},
+          {is_x ? extent.z : extent.x, is_z | is_x ? extent.y : extent.z}};
+}
 
 /// A pattern's colours and where it stands.
 struct PatternSetup {
@@ -65,25 +101,66 @@ class Pattern : public Texture {
   explicit Pattern(PatternSetup setup) : setup_(std::move(setup)) {}
 
   Color3f at(const TexturePoint& point) const final;
+  void colors_at(const TextureBlock& points, ColorBlock& colors) const final;
 
  protected:
   /// How much of `b` is there, 0..1, on average over the footprint.
   virtual float share(const PatternPoint& point) const = 0;
+  /// The very same of sixteen points; by default one by one.
+  virtual void shares(const PatternBlock& points, NumberBlock& share) const;
   PatternMap map() const { return setup_.space.map; }
   bool has_exact_colors() const { return setup_.a.is_exact() && setup_.b.is_exact(); }
 
  private:
-  PatternPoint own_point(const TexturePoint& point) const;
   PatternSetup setup_;
 };
 
 /// The average of a wave of period 1 that is 1 over the first `duty` of each period and 0 over the rest, over
 /// `width` around x.
-float square_wave(float x, float duty, float width);
+inline float square_wave(float x, float duty, float width) {
+  // In double, from near the origin: the two integrals are large and close to each other.
+  const double at = static_cast<double>(x) - std::floor(static_cast<double>(x));
+  const auto on = static_cast<double>(duty), half = static_cast<double>(width) / 2;
+  const auto integral = [&](double to) {
+    const double whole = std::floor(to), rest = to - whole;
+    return on * whole + (rest < on ? rest : on);
+  };
+  const bool has_width = width > 1e-5F;
+  const auto mean =
+      static_cast<float>((integral(at + half) - integral(at - half)) / (has_width ? 2 * half : 1.0));
+  const float here = at < on ? 1.0F : 0.0F;
+  return has_width ? mean : here;
+}
 
 /// How much is left of detail of size 1 under a footprint of that width: 1 for a point, 0 from a little above
 /// the detail's size on.
-float detail_left(float width);
 inline constexpr float kNoDetail = 1.2F;  ///< from that width on it is 0
+inline float detail_left(float width) { return 1 - glm::smoothstep(0.4F, kNoDetail, width); }
+
+/// A pattern whose share has no branches and calls nothing: Kind::share_of<map>(point).
+template <class Kind>
+class LanePattern : public Pattern {
+ public:
+  using Pattern::Pattern;
+
+ protected:
+  float share(const PatternPoint& point) const final {
+    return with_map([&](auto map) { return kind().template share_of<map>(point); });
+  }
+  void shares(const PatternBlock& points, NumberBlock& share) const final {
+    with_map([&](auto map) {
+      NumberBlock result;  // of its own: compilers fear that `share` is one of the pattern's numbers
+      for (int i = 0; i < kBlockSize; ++i) result.at[i] = kind().template share_of<map>(points.at(i));
+      share = result;
+    });
+  }
+
+ private:
+  const Kind& kind() const { return static_cast<const Kind&>(*this); }
+  template <class Function>
+  auto with_map(const Function& function) const {
+    return with_constant<PatternMap::kUv, PatternMap::kPosition>(map(), function);
+  }
+};
 
 }  // namespace raytracer

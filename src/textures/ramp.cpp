@@ -12,7 +12,17 @@ class Ramp final : public Texture {
       : value_(std::move(value)), stops_(std::move(stops)) {}
 
   Color3f at(const TexturePoint& point) const override {
-    const float value = number_of(value_.at(point));
+    return color_of(number_of(value_.at(point)), point);
+  }
+
+  void colors_at(const TextureBlock& points, ColorBlock& colors) const override {
+    ColorBlock values;
+    value_.colors_at(points, values);
+    for (int i = 0; i < points.count; ++i) colors.set(i, color_of(number_of(values.at(i)), points.at(i)));
+  }
+
+ private:
+  Color3f color_of(float value, const TexturePoint& point) const {
     const auto next = std::ranges::find_if(stops_, [&](const RampStop& stop) { return stop.at > value; });
     if (next == stops_.begin()) return next->color.at(point);
     const auto last = std::prev(next);
@@ -21,7 +31,6 @@ class Ramp final : public Texture {
     return (1 - share) * last->color.at(point) + share * next->color.at(point);
   }
 
- private:
   TextureInput value_;
   std::vector<RampStop> stops_;
 };

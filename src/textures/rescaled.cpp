@@ -10,9 +10,14 @@ class Rescaled final : public Texture {
       : texture_(std::move(texture)), rescaling_(std::move(rescaling)) {}
 
   Color3f at(const TexturePoint& point) const override {
-    const Rescaling& r = rescaling_;
-    const float factor = limited(number_of(r.factor.at(point)), r.least, r.most);
-    return r.around + (1.0F + (factor - 1) * r.channels) * (texture_.at(point) - r.around);
+    return rescaled(texture_.at(point), rescaling_.factor.at(point));
+  }
+
+  void colors_at(const TextureBlock& points, ColorBlock& colors) const override {
+    ColorBlock factors;
+    texture_.colors_at(points, colors);
+    rescaling_.factor.colors_at(points, factors);
+    for (int i = 0; i < points.count; ++i) colors.set(i, rescaled(colors.at(i), factors.at(i)));
   }
 
   // The average of a product is not the product of the averages.
@@ -22,6 +27,12 @@ class Rescaled final : public Texture {
   }
 
  private:
+  Color3f rescaled(const Color3f& color, const Color3f& by) const {
+    const Rescaling& r = rescaling_;
+    const float factor = limited(number_of(by), r.least, r.most);
+    return r.around + (1.0F + (factor - 1) * r.channels) * (color - r.around);
+  }
+
   TextureInput texture_;
   Rescaling rescaling_;
 };

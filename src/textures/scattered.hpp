@@ -1,7 +1,7 @@
 // Points scattered over space, one in each cell of a lattice.
 #pragma once
 
-#include "raytracer/vector3f.hpp"
+#include "textures/pattern.hpp"
 
 namespace raytracer {
 
@@ -12,5 +12,14 @@ struct NearestPoints {
 
 /// `jitter` 0 puts each point into the middle of its cell, 1 anywhere in it. Flat: z does not count.
 NearestPoints nearest_points(const Vector3f& p, float jitter, bool is_flat);
+
+struct NearestBlock {
+  NumberBlock nearest, second, number;
+
+  NearestPoints at(int i) const { return {nearest.at[i], second.at[i], number.at[i]}; }
+};
+
+/// The very same at sixteen points.
+void nearest_points(const Vector3Block& p, float jitter, bool is_flat, NearestBlock& found);
 
 }  // namespace raytracer

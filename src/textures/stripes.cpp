@@ -3,12 +3,12 @@
 namespace raytracer {
 namespace {
 
-class Stripes final : public Pattern {
+class Stripes final : public LanePattern<Stripes> {
  public:
-  Stripes(PatternSetup setup, float width) : Pattern(std::move(setup)), width_(width) {}
+  Stripes(PatternSetup setup, float width) : LanePattern(std::move(setup)), width_(width) {}
 
- protected:
-  float share(const PatternPoint& point) const override {
+  template <PatternMap>
+  [[gnu::always_inline]] float share_of(const PatternPoint& point) const {
     return 1 - square_wave(point.position.x, width_, point.extent().x);
   }
 

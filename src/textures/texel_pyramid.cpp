@@ -6,6 +6,7 @@
 
 #include "core/display_curve.hpp"
 #include "core/parallel.hpp"
+#include "core/with_constant.hpp"
 #include "image/texel.hpp"
 
 namespace raytracer {
@@ -170,6 +171,20 @@ auto TexelPyramid::with_decoder(const Level& level, const Function& function) co
   return function([](Texel texel, std::size_t c) { return load<float>(texel + 4 * c); });
 }
 
+/// Likewise function(texel_at), texel_at(x, y) being the colour of a texel.
+template <class Function>
+auto TexelPyramid::with_texels(const Level& level, const Function& function) const {
+  return with_decoder(level, [&](const auto& decode) {
+    return function([&](int x, int y) {
+      const std::size_t index =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x);
+      const std::uint8_t* texel = level.data + index * level.texel_bytes;
+      const float first = decode(texel, 0);
+      return is_number_ ? Color3f(first) : Color3f(first, decode(texel, 1), decode(texel, 2));
+    });
+  });
+}
+
 namespace {
 
 // std::floor is a call where the processor's own rounding may not be counted on. |x| < 2^31.
@@ -178,13 +193,21 @@ float floor_of(float x) {
   return towards_zero > x ? towards_zero - 1 : towards_zero;
 }
 
+// What follows is done to blocks of places: without branches but for those on `wrap`.
+
 /// To 0..1, where it is the same picture. Whatever is not a number goes to 0.
 float wrapped(float x, TextureWrap wrap) {
-  if (wrap == TextureWrap::kClamp) return x > 0 ? std::min(x, 1.0f) : 0.0f;
+  if (wrap == TextureWrap::kClamp) {
+    const float below = x < 1 ? x : 1.0f;
+    return x > 0 ? below : 0.0f;
+  }
   constexpr float kWhole = 0x1p23f;  // from here on there are no fractions
-  if (!(std::abs(x) < kWhole)) return 0;
-  if (wrap == TextureWrap::kRepeat) return std::min(x - floor_of(x), 1.0f);
-  const float there_and_back = x - 2 * floor_of(0.5f * x);
+  const float near = std::abs(x) < kWhole ? x : 0.0f;
+  if (wrap == TextureWrap::kRepeat) {
+    const float rest = near - floor_of(near);
+    return rest < 1 ? rest : 1.0f;
+  }
+  const float there_and_back = near - 2 * floor_of(0.5f * near);
   return there_and_back > 1 ? 2 - there_and_back : there_and_back;
 }
 
@@ -197,14 +220,31 @@ struct Pair {
 Pair pair_at(float x, int count, bool repeats) {
   const float position = x * static_cast<float>(count) - 0.5f;
   const float below = floor_of(position);
-  Pair pair{static_cast<int>(below), static_cast<int>(below) + 1, position - below};
-  if (pair.first < 0) pair.first = repeats ? count - 1 : 0;
-  if (pair.second >= count) pair.second = repeats ? 0 : count - 1;
-  return pair;
+  const int first = static_cast<int>(below), second = first + 1;
+  const int before = repeats ? count - 1 : 0, beyond = repeats ? 0 : count - 1;
+  return {first < 0 ? before : first, second >= count ? beyond : second, position - below};
 }
 
-/// Channel c, the texels above and below being decoded; in the form a + t (b - a), which leaves equal values
-/// as they are.
+int index_at(float x, int count) {
+  const int index = static_cast<int>(x * static_cast<float>(count));
+  return index < count ? index : count - 1;
+}
+
+struct alignas(64) PairBlock {
+  int first[kBlockSize], second[kBlockSize];
+  float weight[kBlockSize];
+
+  void set(int i, const Pair& pair) {
+    first[i] = pair.first;
+    second[i] = pair.second;
+    weight[i] = pair.weight;
+  }
+};
+
+/// In the form a + t (b - a), which leaves equal values as they are.
+Color3f mixed(const Color3f& a, const Color3f& b, float t) { return a + t * (b - a); }
+
+/// Channel c, the texels above and below being decoded; mixed likewise.
 template <class Decode>
 float mixed(const Decode& decode, const std::uint8_t* upper, const std::uint8_t* lower, const Pair& x,
             float below, std::size_t step, std::size_t c) {
@@ -230,6 +270,41 @@ Color3f TexelPyramid::bilinear(int level, const Vector2f& uv, TextureWrap wrap) 
     const auto channel = [&](std::size_t c) { return mixed(decode, upper, lower, x, y.weight, step, c); };
     return is_number_ ? Color3f(channel(0)) : Color3f(channel(0), channel(1), channel(2));
   });
+}
+
+void TexelPyramid::bilinear(const Vector2Block& uv, int count, TextureWrap wrap, ColorBlock& colors) const {
+  const Level pixels = levels_.front();
+  PairBlock x, y;
+  with_constant<TextureWrap::kRepeat, TextureWrap::kMirror, TextureWrap::kClamp>(wrap, [&](auto kind) {
+    constexpr bool kRepeats = kind == TextureWrap::kRepeat;
+    for (int i = 0; i < kBlockSize; ++i) {
+      x.set(i, pair_at(wrapped(uv.x[i], kind), pixels.width, kRepeats));
+      y.set(i, pair_at(1 - wrapped(uv.y[i], kind), pixels.height, kRepeats));
+    }
+  });
+  ColorBlock upper_left, upper_right, lower_left, lower_right;
+  with_texels(pixels, [&](const auto& texel_at) {
+    for (int i = 0; i < count; ++i) {
+      upper_left.set(i, texel_at(x.first[i], y.first[i]));
+      upper_right.set(i, texel_at(x.second[i], y.first[i]));
+      lower_left.set(i, texel_at(x.first[i], y.second[i]));
+      lower_right.set(i, texel_at(x.second[i], y.second[i]));
+    }
+  });
+  ColorBlock result;
+  for (int i = 0; i < kBlockSize; ++i) {
+    const Color3f upper = mixed(upper_left.at(i), upper_right.at(i), x.weight[i]);
+    const Color3f lower = mixed(lower_left.at(i), lower_right.at(i), x.weight[i]);
+    result.set(i, mixed(upper, lower, y.weight[i]));
+  }
+  colors = result;
+}
+
+Color3f TexelPyramid::nearest(int level, const Vector2f& uv, TextureWrap wrap) const {
+  const Level& pixels = levels_[static_cast<std::size_t>(level)];
+  const int x = index_at(wrapped(uv.x, wrap), pixels.width);
+  const int y = index_at(1 - wrapped(uv.y, wrap), pixels.height);
+  return with_texels(pixels, [&](const auto& texel_at) { return texel_at(x, y); });
 }
 
 // --- levels ------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/lanes.hpp"
 #include "image/picture.hpp"
 #include "raytracer/vector3f.hpp"
 
@@ -55,6 +56,12 @@ class TexelPyramid {
   /// Bilinear between the centres of the level's texels. Any uv; (0, 0) is the picture's lower left corner.
   Color3f bilinear(int level, const Vector2f& uv, TextureWrap wrap) const;
 
+  /// Of level 0, at as many places as `count`; likewise the rest, but for what is not a number.
+  void bilinear(const Vector2Block& uv, int count, TextureWrap wrap, ColorBlock& colors) const;
+
+  /// The level's texel that uv lies in.
+  Color3f nearest(int level, const Vector2f& uv, TextureWrap wrap) const;
+
   /// Of what it has taken besides the picture.
   std::size_t bytes() const;
 
@@ -76,10 +83,12 @@ class TexelPyramid {
   bool is_constant() const;
   void add_level();
   void decode_row(const Level& level, int y, float* out) const;
-  template <class Decode>
-  void decode_with(const Level& level, int y, float* out, const Decode& decode) const;
   template <class Function>
   auto with_decoder(const Level& level, const Function& function) const;
+  template <class Function>
+  auto with_texels(const Level& level, const Function& function) const;
+  template <class Decode>
+  void decode_with(const Level& level, int y, float* out, const Decode& decode) const;
   float value_of(float stored) const;
 
   std::shared_ptr<const Picture> picture_;
