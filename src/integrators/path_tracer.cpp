@@ -31,6 +31,15 @@ constexpr std::array<bool, kPairsPerBounce> kAreCompanions = {true, false, true,
 constexpr int kFirstRoulette = 3;
 constexpr float kWeak = 0.25F, kWeakNearGlass = 0.1F;
 
+// Once it is stronger than this two go on in its place. That often at most, and not for long: what has come
+// from rounding would multiply for ever.
+constexpr float kStrong = 2;
+constexpr std::uint8_t kMostSplits = 16;
+
+// In a closed white room no light is ever lost: from here on the roulette ends even the strongest paths.
+constexpr int kLong = 128;
+constexpr float kMostSurvival = 0.98F;
+
 // Of textures whose points wait for each other. Further ones are asked point by point.
 constexpr std::size_t kMostGroups = 8;
 
@@ -286,6 +295,25 @@ void PathTracer::shade(int depth) {
   }
   paths_.resize(kept);
   numbers_.resize(kept);
+  if (depth < kLong) split_strong();
+}
+
+// Of a path that stands for more than it began with two go on, each for half of it: where light is long on its
+// way, as in rough diamonds, a few of them would else make up most of the picture.
+void PathTracer::split_strong() {
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    Path& path = paths_[i];
+    const bool is_strong = largest(path.throughput) > kStrong * path.radiance_scale;
+    if (!is_strong || path.splits == kMostSplits) continue;
+    path.throughput *= 0.5F;
+    ++path.splits;
+    paths_.push_back(Path(path));
+    numbers_.push_back({hash_bits(numbers_[i].reversed + path.splits)});
+    if (has_media_) {
+      media_of_.resize(paths_.size());
+      media_of_.back() = media_of_[i];
+    }
+  }
 }
 
 // Where all that there is to a vertex is a matt surface, it waits for others like it.
@@ -542,7 +570,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
     Media& media = media_of_[index];
     const float before = media.ior();
     vertex.cross(sample.direction, media);
-    const float ratio = media.ior() / before;
+    const float ratio = before / media.ior();
     path.radiance_scale *= ratio * ratio;
   }
   const float survival = roulette(path, depth, chance_points_[index].x);
@@ -556,8 +584,10 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
 float PathTracer::roulette(const Path& path, int depth, float u) const {
   const float strength = largest(path.throughput);
   if (!(strength > 0) || !(strength < kInfinity)) return 0;
-  const float survival = strength / (weak_ * path.radiance_scale);
-  if (depth < kFirstRoulette || survival >= 1) return 1;
+  if (depth < kFirstRoulette) return 1;
+  const float most = depth < kLong ? 1.0F : kMostSurvival;
+  const float survival = std::min(strength / (weak_ * path.radiance_scale), most);
+  if (survival >= 1) return 1;
   return u < survival ? 1 / survival : 0;
 }
 

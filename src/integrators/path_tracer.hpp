@@ -66,6 +66,7 @@ class PathTracer {
     float radiance_scale = 1;  // what refractions have made of the throughput, for the roulette
     RaySpread spread;          // of the ray; the eye's have their cones besides
     std::uint32_t slot = 0;    // in colors, and in cones
+    std::uint8_t splits = 0;   // how often it has become two
   };
 
   // Shadow rays that wait until they are a packet, and what each lets pass.
@@ -93,6 +94,7 @@ class PathTracer {
   bool is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const;
   void shade(int depth);
   void move_path(std::size_t from, std::size_t to);
+  void split_strong();
   void shade_hit(std::uint32_t index, int depth);
   void ask_color(MattGroup& group, const Path& path, const Hit& hit, const SurfacePoint& surface);
   MattGroup* group_of(const MaterialTextures& textures, bool is_rough);

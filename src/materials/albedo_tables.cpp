@@ -6,7 +6,6 @@ namespace raytracer {
 
 namespace {
 
-constexpr float kLeastAlpha = 1e-4F;
 using Quadrature = FacetQuadrature<16, 32>;
 constexpr Quadrature kFacets{0.5F};  // alike all around, so half of them
 
@@ -29,23 +28,6 @@ constexpr int kWideEtaSteps = 9;                                 // to eta 4
 constexpr float kGlassStep = 0.0873460F;  // twelve steps to 3
 
 }  // namespace
-
-template <int Count>
-float AlbedoGrid<Count>::alpha_of(int row) {
-  constexpr float kStep = 1.0F / (Count - 1);
-  const float roughness = static_cast<float>(row) * kStep;
-  return std::max(kLeastAlpha, roughness * roughness);
-}
-
-template <int Count>
-AlphaCell AlbedoGrid<Count>::cell_of(float alpha) {
-  const int row = std::clamp(static_cast<int>(std::sqrt(alpha) * (Count - 1)), 0, Count - 2);
-  const float low = alpha_of(row), high = alpha_of(row + 1);
-  return {{row, std::clamp((alpha - low) / (high - low), 0.0F, 1.0F)}, std::max(kLeastAlpha, alpha)};
-}
-
-template struct AlbedoGrid<ReflectionTable::kCount>;
-template struct AlbedoGrid<GlassTable::kCount>;
 
 // --- reflection
 // ---------------------------------------------------------------------------------------------
@@ -146,11 +128,11 @@ const GlassTable& GlassTable::get() {
 }
 
 GlassTable::GlassTable() {
-  for (int row = 0; row < kCount; ++row) {
-    for (int column = 0; column < kCount; ++column) fill(row, column);
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) fill(row, column);
     const AlphaCell cell = Grid::cell_of(Grid::alpha_of(row));
     const auto mean_of = [&](const Grid& grid) {
-      return diffuse_mean([&](float cosine) { return grid.at(cell, cell.at_cosine(cosine, kCount)); });
+      return diffuse_mean([&](float cosine) { return grid.at(cell, cell.at_cosine(cosine, kColumns)); });
     };
     for (std::size_t e = 0; e < kEtas; ++e) {
       mean_with_[e][static_cast<std::size_t>(row)] = mean_of(with_reflection_[e]);
@@ -162,14 +144,14 @@ GlassTable::GlassTable() {
 void GlassTable::fill(int row, int column) {
   const float alpha = Grid::alpha_of(row);
   const Ggx ggx(alpha, alpha);
-  const Vector3f o = direction_at(AlphaCell::cosine_of(column, kCount, alpha));
+  const Vector3f o = direction_at(AlphaCell::cosine_of(column, kColumns, alpha));
   Quadrature::Facets facets;
   const std::size_t count = kFacets.find_facets(ggx, o, facets);
   for (int e = 0; e < kEtas; ++e) {
     const float eta = eta_of(e);
     Vector2f sum(0);
     for (std::size_t k = 0; k < count; ++k) sum += Quadrature::glass_shares(ggx, o, facets[k], eta);
-    const auto index = static_cast<std::size_t>(row * kCount + column);
+    const auto index = static_cast<std::size_t>(row * kColumns + column);
     with_reflection_[static_cast<std::size_t>(e)].values[index] = std::min(1.0F, sum.x);
     without_[static_cast<std::size_t>(e)].values[index] = std::min(1.0F, sum.y);
   }
@@ -187,7 +169,7 @@ AxisCell GlassTable::eta_cell(float eta) {
 }
 
 float GlassTable::albedo(const AlphaCell& alpha, const AxisCell& eta, float specular, float cosine) const {
-  const AxisCell column = alpha.at_cosine(cosine, kCount);
+  const AxisCell column = alpha.at_cosine(cosine, kColumns);
   const auto slice = static_cast<std::size_t>(eta.node);
   const auto along_eta = [&](const Grids& grids) {
     return interpolated(grids[slice].at(alpha, column), grids[slice + 1].at(alpha, column), eta.weight);

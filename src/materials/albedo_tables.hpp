@@ -24,32 +24,54 @@ struct AxisCell {
 };
 
 /// The alpha axis, a grid with nodes even in roughness. Also carries alpha itself, on which the axis of
-/// cosines depends: near grazing the albedo follows cosine / alpha.
+/// cosines depends: near grazing the albedo follows cosine / alpha, and from there on it changes slowly.
 struct AlphaCell : AxisCell {
   float alpha;
   AxisCell at_cosine(float cosine, int count) const {
-    const float k = 2 * alpha;
-    return at(std::sqrt(cosine * (1 + k) / (cosine + k)) * static_cast<float>(count - 1), count);
+    return at(place_of(cosine, alpha) * static_cast<float>(count - 1), count);
   }
   /// The cosine of a node of that axis.
   static float cosine_of(int node, int count, float alpha) {
-    const float k = 2 * alpha, x = static_cast<float>(node) / static_cast<float>(count - 1), x2 = x * x;
-    return std::clamp(x2 * k / (1 + k - x2), 1e-6F, 1.0F);
+    const float place = static_cast<float>(node) / static_cast<float>(count - 1);
+    float low = 0, high = 1;
+    for (int i = 0; i < 30; ++i) {
+      const float middle = 0.5F * (low + high);
+      (place_of(middle, alpha) < place ? low : high) = middle;
+    }
+    return std::clamp(high, 1e-6F, 1.0F);
+  }
+
+ private:
+  static float place_of(float cosine, float alpha) {
+    const float k = 2 * alpha;
+    constexpr float kEven = 0.4F;  // the share of an even axis
+    return (1 - kEven) * std::sqrt(cosine * (1 + k) / (cosine + k)) + kEven * cosine;
   }
 };
 
-/// `Count` x `Count` numbers, rows of alpha with the cosines side by side.
-template <int Count>
-struct AlbedoGrid {
-  std::array<float, Count * Count> values{};
+/// The alpha of the first row of tables; less of it is a mirror to them.
+inline constexpr float kLeastTabledAlpha = 1e-4F;
 
-  static float alpha_of(int row);
-  static AlphaCell cell_of(float alpha);
+/// Rows of alpha, each with its cosines side by side.
+template <int Rows, int Columns = Rows>
+struct AlbedoGrid {
+  std::array<float, Rows * Columns> values{};
+
+  static float alpha_of(int row) {
+    constexpr float kStep = 1.0F / (Rows - 1);
+    const float roughness = static_cast<float>(row) * kStep;
+    return std::max(kLeastTabledAlpha, roughness * roughness);
+  }
+  static AlphaCell cell_of(float alpha) {
+    const int row = std::clamp(static_cast<int>(std::sqrt(alpha) * (Rows - 1)), 0, Rows - 2);
+    const float low = alpha_of(row), high = alpha_of(row + 1);
+    return {{row, std::clamp((alpha - low) / (high - low), 0.0F, 1.0F)}, std::max(kLeastTabledAlpha, alpha)};
+  }
 
   float at(const AlphaCell& row, const AxisCell& column) const {
-    const float* p = values.data() + row.node * Count + column.node;
+    const float* p = values.data() + row.node * Columns + column.node;
     const float low = p[0] + column.weight * (p[1] - p[0]);
-    const float high = p[Count] + column.weight * (p[Count + 1] - p[Count]);
+    const float high = p[Columns] + column.weight * (p[Columns + 1] - p[Columns]);
     return low + row.weight * (high - low);
   }
 };
@@ -93,8 +115,9 @@ class ReflectionTable {
 /// Rough glass: reflected and refracted light together.
 class GlassTable {
  public:
-  static constexpr int kCount = 16, kEtas = 29;
-  using Grid = AlbedoGrid<kCount>;
+  /// From inside, where total reflection begins changes the albedo fast: hence more cosines.
+  static constexpr int kRows = 16, kColumns = 32, kEtas = 29;
+  using Grid = AlbedoGrid<kRows, kColumns>;
 
   static const GlassTable& get();
 
@@ -107,7 +130,7 @@ class GlassTable {
 
  private:
   using Grids = std::array<Grid, kEtas>;
-  using Means = std::array<std::array<float, kCount>, kEtas>;
+  using Means = std::array<std::array<float, kRows>, kEtas>;
 
   GlassTable();
   void fill(int row, int column);
