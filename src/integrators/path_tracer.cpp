@@ -298,8 +298,8 @@ void PathTracer::shade(int depth) {
   if (depth < kLong) split_strong();
 }
 
-// Of a path that stands for more than it began with two go on, each for half of it: where light is long on its
-// way, as in rough diamonds, a few of them would else make up most of the picture.
+// Of a path that stands for more than it began with two go on, each for half of it: where light is long on
+// its way, as in rough diamonds, a few of them would else make up most of the picture.
 void PathTracer::split_strong() {
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     Path& path = paths_[i];

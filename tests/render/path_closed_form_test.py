@@ -68,6 +68,15 @@ class Furnace(unittest.TestCase):
         for roughness in (0.3, 0.7):
             self.check(f"sphere {{ material {{ color 1  transmission 1  roughness {roughness} }} }}", 0.01, 256)
 
+    # Light is long on its way in there: neither what its albedo lacks on each bounce nor the roulette may add up.
+    def test_rough_diamond(self):
+        ball = "sphere { material { color 1  transmission 1  ior 2.4  roughness 0.6 } }"
+        picture = path(self.SKY.replace("fov 50", "fov 14") + ball, 256, "24x24")
+        average = mean(picture)[0]
+        self.assertLess(abs(average - 1), 0.006)
+        spread = math.sqrt(sum((value - average) ** 2 for value in picture.values) / len(picture.values))
+        self.assertLess(spread, 0.08)
+
     def test_coloured_ball(self):  # B2
         picture = path("background { color 1 }\ncamera { position 0 0 5  look_at 0 0 0  fov 10 }\n"
                        "sphere { material { color 0.2 0.5 0.8 } }", 16, "16x16")
@@ -88,6 +97,13 @@ class Enclosed(unittest.TestCase):
                        f"light {{ radiant_intensity {math.pi} {math.pi} {math.pi} }}", 1024)
         for value in mean(picture):
             self.assertLessEqual(abs(value - 1), 0.025)
+
+    # No light is ever lost there: paths end for another reason.
+    def test_closed_white_rooms_come_to_an_end(self):
+        lit = mean(path("""camera { position 0 0 0  look_at 0 0 1 }
+                           sphere { material { color 1 } }
+                           light point { position 0 0.5 0  color 1 1 1 }""", 16))
+        self.assertTrue(all(10 < value < 1e4 for value in lit), lit)
 
     def test_bounces_are_counted(self):
         """In a closed sphere under a point light at its middle every scattering adds albedo times what came before."""
