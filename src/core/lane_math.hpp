@@ -21,6 +21,33 @@ inline float sine_of_turns(float x) {
   return std::copysign(t * series, turn);
 }
 
+/// The sine of an angle in degrees, within 3e-16; exact at quarter turns, where scenes meet them: nobody
+/// wants 6e-17 where a 0 belongs. 0 for angles beyond 1e15.
+inline double sine_of_degrees(double x) {
+  const double near = std::abs(x) < 1e15 ? x : 0.0;
+  const double half_turns = std::floor(near / 180 + 0.5), rest = near - 180 * half_turns,
+               size = std::abs(rest);
+  // Taylor's series of the sine up to 45 degrees, from there on of the cosine of what is left to 90.
+  const double t = (size > 45 ? 90 - size : size) * (kPi / 180), z = t * t;
+  const double sine =
+      1 + z * (-1.0 / 6 +
+               z * (1.0 / 120 + z * (-1.0 / 5040 +
+                                     z * (1.0 / 362880 + z * (-1.0 / 39916800 +
+                                                              z * (1.0 / 6227020800 - z / 1307674368000))))));
+  const double cosine =
+      1 + z * (-1.0 / 2 +
+               z * (1.0 / 24 +
+                    z * (-1.0 / 720 +
+                         z * (1.0 / 40320 +
+                              z * (-1.0 / 3628800 +
+                                   z * (1.0 / 479001600 + z * (-1.0 / 87178291200 + z / 20922789888000)))))));
+  const double value = size > 45 ? cosine : t * sine;
+  const bool is_odd = half_turns != 2 * std::floor(0.5 * half_turns);
+  return std::copysign(value, is_odd ? -rest : rest) + 0.0;  // no negative 0
+}
+
+inline double cosine_of_degrees(double x) { return sine_of_degrees(x + 90); }
+
 /// The logarithm to the base 2 of a normal number above 0, within 2e-7 of it and of 1.
 inline float log2_of(float x) {
   // x is m 2^e, m between the square roots of 1/2 and 2; its logarithm an area hyperbolic tangent.

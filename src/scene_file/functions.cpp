@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/lane_math.hpp"
 #include "core/noise.hpp"
 #include "core/numeric.hpp"
 #include "scene_file/colors.hpp"
@@ -33,23 +34,11 @@ FunctionResult of_number(Arguments a) {
   return {Value::number(F(a[0].x())), {}};
 }
 
-// Exact at the quarter turns, where scenes meet them.
-double sin_degrees(double x) {
-  const double turn = std::fmod(x, 360);
-  if (turn == 0 || std::abs(turn) == 180) return 0;
-  return std::sin(glm::radians(turn));
-}
-double cos_degrees(double x) {
-  const double turn = std::abs(std::fmod(x, 360));
-  if (turn == 90 || turn == 270) return 0;
-  return std::cos(glm::radians(turn));
-}
-
 FunctionResult tangent(Arguments a) {
   if (!a[0].is_number()) return wrong_argument(0, "a number", a[0]);
-  const double c = cos_degrees(a[0].x());
+  const double c = cosine_of_degrees(a[0].x());
   if (c == 0) return problem(fmt::format("of {} degrees is infinite", a[0].x()));
-  return {Value::number(sin_degrees(a[0].x()) / c), {}};
+  return {Value::number(sine_of_degrees(a[0].x()) / c), {}};
 }
 
 template <double (*F)(double)>
@@ -260,8 +249,8 @@ using Form = FunctionForm;
 using Step = ExpressionStep;
 
 constexpr FunctionRow kFunctions[] = {
-    {"sin", "x", 1, 1, "Of an angle in degrees.", of_number<sin_degrees>, Form::kNumbers, Step::kSin},
-    {"cos", "x", 1, 1, "Of an angle in degrees.", of_number<cos_degrees>, Form::kNumbers, Step::kCos},
+    {"sin", "x", 1, 1, "Of an angle in degrees.", of_number<sine_of_degrees>, Form::kNumbers, Step::kSin},
+    {"cos", "x", 1, 1, "Of an angle in degrees.", of_number<cosine_of_degrees>, Form::kNumbers, Step::kCos},
     {"tan", "x", 1, 1, "Of an angle in degrees.", tangent, Form::kNumbers, Step::kTan},
     {"asin", "x", 1, 1, "The angle in degrees, from -90 to 90.", inverse_of_share<std::asin>, Form::kNumbers,
      Step::kAsin},

@@ -2,19 +2,15 @@
 
 #include <cmath>
 
+#include "core/lane_math.hpp"
+
 namespace raytracer::scene_file {
 namespace {
 
 glm::dmat3 rotation_about(const Vector3d& axis, double degrees) {
   // Rodrigues' formula as a matrix; glm's columns are written one per line.
   const Vector3d n = glm::normalize(axis);
-  // Quarter turns are exact: nobody wants 6e-17 where a 0 belongs.
-  const double turns = degrees / 90;
-  const bool quarter = turns == std::floor(turns);
-  const int quarters = quarter ? static_cast<int>(std::fmod(std::fmod(turns, 4) + 4, 4)) : 0;
-  constexpr double kSines[] = {0, 1, 0, -1};
-  const double s = quarter ? kSines[quarters] : std::sin(glm::radians(degrees));
-  const double c = quarter ? kSines[(quarters + 1) % 4] : std::cos(glm::radians(degrees));
+  const double s = sine_of_degrees(degrees), c = cosine_of_degrees(degrees);
   const Vector3d m = (1 - c) * n;
   return {Vector3d(m.x * n.x + c, m.x * n.y + s * n.z, m.x * n.z - s * n.y),
           Vector3d(m.y * n.x - s * n.z, m.y * n.y + c, m.y * n.z + s * n.x),

@@ -5,30 +5,53 @@
 #include <span>
 #include <utility>
 
+#include "core/lane_math.hpp"
 #include "core/noise.hpp"
 #include "core/numeric.hpp"
+#include "textures/texture_block.hpp"
 
 namespace raytracer {
 namespace {
 
 constexpr double kDegrees = 180 / kPi;
 
-Vector3d vector_at(const double* p) { return {p[0], p[1], p[2]}; }
-double put(double* to, const Vector3d& v) {
-  to[0] = v.x;
-  to[1] = v.y;
-  to[2] = v.z;
-  return v.x;
+/// One number, or as many as points are computed side by side.
+template <int N>
+struct Numbers {
+  double at[N];
+};
+
+template <int N>
+Vector3d vector_at(const double* p, int lane) {
+  return {p[lane], p[N + lane], p[2 * N + lane]};
 }
 
-double sine(double degrees) {
-  const double turn = std::fmod(degrees, 360);
-  return turn == 0 || std::abs(turn) == 180 ? 0 : std::sin(glm::radians(turn));
+// Puts function(lane) of all lanes at `to`. Computed before any is put there, which operands may be, too.
+template <int N, class Function>
+Numbers<N> put(double* to, const Function& function) {
+  Numbers<N> result;
+  for (int lane = 0; lane < N; ++lane) result.at[lane] = function(lane);
+  for (int lane = 0; lane < N; ++lane) to[lane] = result.at[lane];
+  return result;
 }
-double cosine(double degrees) {
-  const double turn = std::abs(std::fmod(degrees, 360));
-  return turn == 90 || turn == 270 ? 0 : std::cos(glm::radians(turn));
+
+template <int N, class Function>
+Numbers<N> put_vector(double* to, const Function& function) {
+  Numbers<N> x, y, z;
+  for (int lane = 0; lane < N; ++lane) {
+    const Vector3d v = function(lane);
+    x.at[lane] = v.x;
+    y.at[lane] = v.y;
+    z.at[lane] = v.z;
+  }
+  for (int lane = 0; lane < N; ++lane) {
+    to[lane] = x.at[lane];
+    to[N + lane] = y.at[lane];
+    to[2 * N + lane] = z.at[lane];
+  }
+  return x;
 }
+
 double power(double base, double exponent) {
   const double result = std::pow(base, exponent);
   return std::isfinite(result) ? result : 0;
@@ -44,130 +67,144 @@ double length_of(const Vector3d& v) {
 }
 Vector3d normalized(const Vector3d& v) { return length_of(v) > 0 ? glm::normalize(v) : Vector3d(0); }
 
+template <int N>
+double random_at(const double* seeds, std::size_t count, int lane) {
+  if constexpr (N == 1) return random_number(std::span(seeds, count));
+  double own[ExpressionProgram::kMostPlaces];
+  for (std::size_t k = 0; k < count; ++k) own[k] = seeds[N * k + static_cast<std::size_t>(lane)];
+  return random_number(std::span(own, count));
+}
+
 // One step; returns the number that it has computed. `last` is that of the step before, everything else is a
-// place in r.
-double take(const ExpressionInstruction& i, double* r, double last,
-            std::span<const ExpressionFunction> functions) {
+// place in r, which has room for N numbers at each.
+template <int N>
+Numbers<N> take(const ExpressionInstruction& i, double* r, const Numbers<N>& last,
+                std::span<const ExpressionFunction> functions) {
   using Step = ExpressionStep;
-  double* to = r + i.to;
-  const double *a = r + i.a, *b = r + i.b, *c = r + i.c;
+  double* to = r + N * i.to;
+  const double *a = r + N * i.a, *b = r + N * i.b, *c = r + N * i.c;
   switch (i.step) {
     case Step::kCopy:
-      return *to = *a;
+      return put<N>(to, [=](int l) { return a[l]; });
     case Step::kAdd:
-      return *to = *a + *b;
+      return put<N>(to, [=](int l) { return a[l] + b[l]; });
     case Step::kSubtract:
-      return *to = *a - *b;
+      return put<N>(to, [=](int l) { return a[l] - b[l]; });
     case Step::kMultiply:
-      return *to = *a * *b;
+      return put<N>(to, [=](int l) { return a[l] * b[l]; });
     case Step::kMultiplyAdd:
-      return *to = *a * *b + *c;
+      return put<N>(to, [=](int l) { return a[l] * b[l] + c[l]; });
     case Step::kMultiplySubtract:
-      return *to = *c - *a * *b;
+      return put<N>(to, [=](int l) { return c[l] - a[l] * b[l]; });
     case Step::kAddLast:
-      return *to = last + *b;
+      return put<N>(to, [=](int l) { return last.at[l] + b[l]; });
     case Step::kSubtractLast:
-      return *to = last - *b;
+      return put<N>(to, [=](int l) { return last.at[l] - b[l]; });
     case Step::kSubtractFromLast:
-      return *to = *a - last;
+      return put<N>(to, [=](int l) { return a[l] - last.at[l]; });
     case Step::kMultiplyLast:
-      return *to = last * *b;
+      return put<N>(to, [=](int l) { return last.at[l] * b[l]; });
     case Step::kMultiplyAddLast:
-      return *to = *a * *b + last;
+      return put<N>(to, [=](int l) { return a[l] * b[l] + last.at[l]; });
     case Step::kMultiplyLastAdd:
-      return *to = last * *b + *c;
+      return put<N>(to, [=](int l) { return last.at[l] * b[l] + c[l]; });
     case Step::kMultiplySubtractLast:
-      return *to = last - *a * *b;
+      return put<N>(to, [=](int l) { return last.at[l] - a[l] * b[l]; });
     case Step::kNegate:
-      return *to = -*a;
+      return put<N>(to, [=](int l) { return -a[l]; });
     case Step::kDivide:
-      return *to = *b == 0 ? 0 : *a / *b;
+      return put<N>(to, [=](int l) { return b[l] == 0 ? 0 : a[l] / b[l]; });
     case Step::kRemainder:
-      return *to = *b == 0 ? 0 : std::fmod(*a, *b);
+      return put<N>(to, [=](int l) { return b[l] == 0 ? 0 : std::fmod(a[l], b[l]); });
     case Step::kModulo:
-      return *to = *b == 0 ? 0 : *a - *b * std::floor(*a / *b);
+      return put<N>(to, [=](int l) { return b[l] == 0 ? 0 : a[l] - b[l] * std::floor(a[l] / b[l]); });
     case Step::kPower:
-      return *to = power(*a, *b);
+      return put<N>(to, [=](int l) { return power(a[l], b[l]); });
     case Step::kAddVector:
-      return put(to, vector_at(a) + vector_at(b));
+      return put_vector<N>(to, [=](int l) { return vector_at<N>(a, l) + vector_at<N>(b, l); });
     case Step::kSubtractVector:
-      return put(to, vector_at(a) - vector_at(b));
+      return put_vector<N>(to, [=](int l) { return vector_at<N>(a, l) - vector_at<N>(b, l); });
     case Step::kMultiplyVector:
-      return put(to, vector_at(a) * vector_at(b));
+      return put_vector<N>(to, [=](int l) { return vector_at<N>(a, l) * vector_at<N>(b, l); });
     case Step::kScaleVector:
-      return put(to, vector_at(a) * *b);
+      return put_vector<N>(to, [=](int l) { return vector_at<N>(a, l) * b[l]; });
     case Step::kLess:
-      return *to = *a < *b ? 1 : 0;
+      return put<N>(to, [=](int l) { return a[l] < b[l] ? 1.0 : 0.0; });
     case Step::kLessEqual:
-      return *to = *a <= *b ? 1 : 0;
+      return put<N>(to, [=](int l) { return a[l] <= b[l] ? 1.0 : 0.0; });
     case Step::kEqual:
-      return *to = *a == *b ? 1 : 0;
+      return put<N>(to, [=](int l) { return a[l] == b[l] ? 1.0 : 0.0; });
     case Step::kAnd:
-      return *to = *a != 0 && *b != 0 ? 1 : 0;
+      return put<N>(to, [=](int l) { return (a[l] != 0) & (b[l] != 0) ? 1.0 : 0.0; });
     case Step::kOr:
-      return *to = *a != 0 || *b != 0 ? 1 : 0;
+      return put<N>(to, [=](int l) { return (a[l] != 0) | (b[l] != 0) ? 1.0 : 0.0; });
     case Step::kNot:
-      return *to = *a == 0 ? 1 : 0;
+      return put<N>(to, [=](int l) { return a[l] == 0 ? 1.0 : 0.0; });
     case Step::kChoose:
-      return *to = *a != 0 ? *b : *c;
+      return put<N>(to, [=](int l) { return a[l] != 0 ? b[l] : c[l]; });
     case Step::kSin:
-      return *to = sine(*a);
+      return put<N>(to, [=](int l) { return sine_of_degrees(a[l]); });
     case Step::kCos:
-      return *to = cosine(*a);
-    case Step::kTan: {
-      const double divisor = cosine(*a);
-      return *to = divisor == 0 ? 0 : sine(*a) / divisor;
-    }
+      return put<N>(to, [=](int l) { return cosine_of_degrees(a[l]); });
+    case Step::kTan:
+      return put<N>(to, [=](int l) {
+        const double divisor = cosine_of_degrees(a[l]);
+        return divisor == 0 ? 0 : sine_of_degrees(a[l]) / divisor;
+      });
     case Step::kAsin:
-      return *to = kDegrees * std::asin(std::clamp(*a, -1.0, 1.0));
+      return put<N>(to, [=](int l) { return kDegrees * std::asin(std::clamp(a[l], -1.0, 1.0)); });
     case Step::kAcos:
-      return *to = kDegrees * std::acos(std::clamp(*a, -1.0, 1.0));
+      return put<N>(to, [=](int l) { return kDegrees * std::acos(std::clamp(a[l], -1.0, 1.0)); });
     case Step::kAtan2:
-      return *to = kDegrees * std::atan2(*a, *b);
+      return put<N>(to, [=](int l) { return kDegrees * std::atan2(a[l], b[l]); });
     case Step::kSqrt:
-      return *to = *a > 0 ? std::sqrt(*a) : 0;
+      return put<N>(to, [=](int l) { return a[l] > 0 ? std::sqrt(a[l]) : 0; });
     case Step::kExp:
-      return *to = std::exp(*a);
+      return put<N>(to, [=](int l) { return std::exp(a[l]); });
     case Step::kLog:
-      return *to = *a > 0 ? std::log(*a) : 0;
+      return put<N>(to, [=](int l) { return a[l] > 0 ? std::log(a[l]) : 0; });
     case Step::kAbs:
-      return *to = std::abs(*a);
+      return put<N>(to, [=](int l) { return std::abs(a[l]); });
     case Step::kMin:
-      return *to = std::min(*a, *b);
+      return put<N>(to, [=](int l) { return b[l] < a[l] ? b[l] : a[l]; });
     case Step::kMax:
-      return *to = std::max(*a, *b);
+      return put<N>(to, [=](int l) { return a[l] < b[l] ? b[l] : a[l]; });
     case Step::kFloor:
-      return *to = std::floor(*a);
+      return put<N>(to, [=](int l) { return std::floor(a[l]); });
     case Step::kCeil:
-      return *to = std::ceil(*a);
+      return put<N>(to, [=](int l) { return std::ceil(a[l]); });
     case Step::kRound:
-      return *to = std::round(*a);
+      return put<N>(to, [=](int l) { return std::round(a[l]); });
     case Step::kSign:
-      return *to = *a > 0 ? 1 : *a < 0 ? -1 : 0;
+      return put<N>(to, [=](int l) { return a[l] > 0 ? 1.0 : a[l] < 0 ? -1.0 : 0.0; });
     case Step::kClamp:
-      return *to = std::min(std::max(*a, *b), *c);
+      return put<N>(to, [=](int l) {
+        const double above = a[l] < b[l] ? b[l] : a[l];
+        return c[l] < above ? c[l] : above;
+      });
     case Step::kMix:
-      return *to = *a * (1 - *c) + *b * *c;
+      return put<N>(to, [=](int l) { return a[l] * (1 - c[l]) + b[l] * c[l]; });
     case Step::kSmoothstep:
-      return *to = smoothstep(*a, *b, *c);
+      return put<N>(to, [=](int l) { return smoothstep(a[l], b[l], c[l]); });
     case Step::kLength:
-      return *to = length_of(vector_at(a));
+      return put<N>(to, [=](int l) { return length_of(vector_at<N>(a, l)); });
     case Step::kNormalize:
-      return put(to, normalized(vector_at(a)));
+      return put_vector<N>(to, [=](int l) { return normalized(vector_at<N>(a, l)); });
     case Step::kDot:
-      return *to = glm::dot(vector_at(a), vector_at(b));
+      return put<N>(to, [=](int l) { return glm::dot(vector_at<N>(a, l), vector_at<N>(b, l)); });
     case Step::kCross:
-      return put(to, glm::cross(vector_at(a), vector_at(b)));
-    case Step::kNoise: {
-      const Vector3d p = vector_at(a);
-      return *to = is_finite(p) ? gradient_noise(p) : 0;
-    }
+      return put_vector<N>(to, [=](int l) { return glm::cross(vector_at<N>(a, l), vector_at<N>(b, l)); });
+    case Step::kNoise:
+      return put<N>(to, [=](int l) {
+        const Vector3d p = vector_at<N>(a, l);
+        return is_finite(p) ? gradient_noise(p) : 0;
+      });
     case Step::kRandom:
-      return *to = random_number(std::span(a, i.b));
+      return put<N>(to, [=](int l) { return random_at<N>(a, i.b, l); });
     case Step::kCall:
-      return put(to, functions[i.b](vector_at(a)));
+      return put_vector<N>(to, [=](int l) { return functions[i.b](vector_at<N>(a, l)); });
   }
-  return 0;
+  return last;
 }
 
 bool writes_one_number(ExpressionStep step) {
@@ -206,19 +243,59 @@ ExpressionInstruction chained(ExpressionInstruction i, std::uint16_t last) {
   return i;
 }
 
+// Runs the program for N points. `r` has the points' values; results that are not finite become 0.
+template <int N>
+void run_all(const ExpressionProgram& program, double* r) {
+  for (std::size_t k = 0; k < program.constants.size(); ++k) {
+    double* to = r + N * (ExpressionProgram::kFirstConstant + k);
+    for (int lane = 0; lane < N; ++lane) to[lane] = program.constants[k];
+  }
+  Numbers<N> last{};
+  for (const ExpressionInstruction& i : program.instructions) last = take<N>(i, r, last, program.functions);
+  double* result = r + N * program.result;
+  const int count = program.is_vector ? 3 * N : N;
+  for (int k = 0; k < count; ++k) result[k] = std::isfinite(result[k]) ? result[k] : 0;
+}
+
+template <int N>
+void put_point(const TexturePoint& point, double* r, int lane) {
+  using Program = ExpressionProgram;
+  for (int axis = 0; axis < 3; ++axis) {
+    r[N * (Program::kPosition + axis) + lane] = static_cast<double>(point.position[axis]);
+    r[N * (Program::kNormal + axis) + lane] = static_cast<double>(point.normal[axis]);
+  }
+  r[N * Program::kU + lane] = static_cast<double>(point.uv.x);
+  r[N * Program::kV + lane] = static_cast<double>(point.uv.y);
+}
+
 class ExpressionTexture final : public Texture {
  public:
   explicit ExpressionTexture(ExpressionProgram program) : program_(std::move(program)) {}
 
-  Color3f at(const TexturePoint& point) const override {
-    Vector3d value = program_.run(point);
+  Color3f at(const TexturePoint& point) const override { return color_of(program_.run(point)); }
+
+  void colors_at(const TextureBlock& points, ColorBlock& colors) const override {
+    constexpr int kLanes = 8;  // of double precision, in the largest vectors that there are
+    alignas(64) double r[kLanes * ExpressionProgram::kMostPlaces];
+    for (int first = 0; first < points.count; first += kLanes) {
+      for (int lane = 0; lane < kLanes; ++lane) put_point<kLanes>(points.at(first + lane), r, lane);
+      run_all<kLanes>(program_, r);
+      const double* result = r + kLanes * program_.result;
+      for (int lane = 0; lane < kLanes; ++lane) {
+        colors.set(first + lane, color_of(program_.is_vector ? vector_at<kLanes>(result, lane)
+                                                             : Vector3d(result[lane], 0, 0)));
+      }
+    }
+  }
+
+ private:
+  Color3f color_of(Vector3d value) const {
     if (!program_.is_vector) value = Vector3d(value.x);
     // Beyond, single precision loses its footing.
     constexpr double kMost = 1e18;
     return Color3f(glm::clamp(value, -kMost, kMost));
   }
 
- private:
   ExpressionProgram program_;
 };
 
@@ -226,16 +303,9 @@ class ExpressionTexture final : public Texture {
 
 Vector3d ExpressionProgram::run(const TexturePoint& point) const {
   double r[kMostPlaces];
-  put(r + kPosition, Vector3d(point.position));
-  put(r + kNormal, Vector3d(point.normal));
-  r[kU] = static_cast<double>(point.uv.x);
-  r[kV] = static_cast<double>(point.uv.y);
-  std::copy(constants.begin(), constants.end(), r + kFirstConstant);
-  double last = 0;
-  for (const ExpressionInstruction& i : instructions) last = take(i, r, last, functions);
-  const Vector3d value = is_vector ? vector_at(r + result) : Vector3d(r[result], 0, 0);
-  return {std::isfinite(value.x) ? value.x : 0, std::isfinite(value.y) ? value.y : 0,
-          std::isfinite(value.z) ? value.z : 0};
+  put_point<1>(point, r, 0);
+  run_all<1>(*this, r);
+  return is_vector ? vector_at<1>(r + result, 0) : Vector3d(r[result], 0, 0);
 }
 
 void chain(ExpressionProgram& program) {

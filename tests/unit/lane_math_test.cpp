@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "catch.hpp"
 
@@ -28,6 +29,22 @@ TEST_CASE("sines, logarithms and powers without branches are those of the standa
   CHECK(exponential < 3e-7);
   CHECK(logarithm < 2e-7);
   CHECK(power < 5e-7);
+}
+
+TEST_CASE("sines of degrees are those of the standard library, and exact at quarter turns") {
+  double worst = 0;
+  for (int i = -200000; i <= 200000; ++i) {
+    const double x = 0.0137 * i;
+    worst = std::max(worst, std::abs(sine_of_degrees(x) - std::sin(std::remainder(x, 360) * (kPi / 180))));
+  }
+  CHECK(worst < 5e-16);
+  for (int quarter = -9; quarter <= 9; ++quarter) {
+    constexpr double kSines[] = {0, 1, 0, -1};
+    CHECK(sine_of_degrees(90.0 * quarter) == kSines[(quarter + 12) % 4]);
+    CHECK(cosine_of_degrees(90.0 * quarter) == kSines[(quarter + 13) % 4]);
+  }
+  CHECK(sine_of_degrees(1e300) == 0);
+  CHECK(sine_of_degrees(std::numeric_limits<double>::quiet_NaN()) == 0);
 }
 
 TEST_CASE("sines and powers keep their known points") {

@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "image/picture.hpp"
 #include "make_meshes.hpp"
+#include "raytracer/scene_file.hpp"
 #include "raytracer/shapes.hpp"
 #include "scene/texture_queries.hpp"
 #include "textures/image_texture.hpp"
@@ -205,6 +206,23 @@ RayCone some_cone(Random& random) {
 }
 
 }  // namespace
+
+TEST_CASE("sixteen points of a formula get what each gets alone", "[textures]") {
+  std::vector<Named> all;
+  std::vector<LoadedScene> scenes;
+  for (const std::string formula :
+       {"0.5 + 0.3 * sin(360 * u) * cos(180 * v) + 0.1 * tan(p.x)", "abs(n) * (p.x % 1, p.y, -p.z / v)",
+        "noise(4 * p) * random(floor(p.x), floor(p.y)) + length(p) - dot(p, n)",
+        "if p.x < 0.2 or v > 0.5 then normalize(p) else (u, v, max(p.x, p.y) ^ 1.5)",
+        "mix(clamp(p.y, 0, 1), smoothstep(0, 1, u), round(v)) + sqrt(u) + exp(-p.x * p.x)"}) {
+    scenes.push_back(load_scene_text("sphere { material { color (" + formula + ") } }", "formula"));
+    INFO(formula);
+    REQUIRE(scenes.back().ok());
+    const SceneDescription& description = scenes.back().scene_at(0)->description();
+    all.push_back({formula, description.materials[description.material_of[0]].textures->color});
+  }
+  require_same(all);
+}
 
 TEST_CASE("textures are asked where each hit alone would ask them", "[textures]") {
   const Scene scene(some_shapes());
