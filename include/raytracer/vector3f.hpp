@@ -61,6 +61,10 @@ struct Transform {
   Vector3d point(const Vector3d& p) const { return linear * p + translation; }
   Vector3d vector(const Vector3d& v) const { return linear * v; }
 
+  /// Whether right hands become left ones. Flat shapes keep the side that they face: a mirror image of a lamp
+  /// that shines down shines down.
+  bool is_mirror() const { return glm::determinant(linear) < 0; }
+
   /// First other, then this.
   Transform operator*(const Transform& other) const {
     return {linear * other.linear, linear * other.translation + translation};

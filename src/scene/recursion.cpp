@@ -137,7 +137,8 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
 
   const float length = glm::length(sight.ray.direction);
   float before = sight.media.ior(), behind = material.ior;
-  if (has_inside(own) && !is_outside) {
+  const bool is_in_glass = has_inside(own) && !is_outside;
+  if (is_in_glass) {
     before = material.ior;
     behind = sight.media.ior_without(&own);
   }
@@ -160,8 +161,8 @@ Seen Recursion::look_at_layers(const Sight& sight, const Hit& hit) {
     frame.geometric_normal = side * surface.point.normal;
     frame.normal = side * surface.point.shading_normal;
     frame.tangent = surface.tangent;
-    frame.ior_outside = is_outside ? before : behind;
-    frame.ior_inside = is_outside ? behind : before;
+    frame.ior_outside = is_in_glass ? behind : before;
+    frame.ior_inside = is_in_glass ? before : behind;
     const Bsdf bsdf(material, frame);
     if (!bsdf.is_delta()) seen.color += lit_by_lights(surface, bsdf);
     const Shares shares = shares_of(surface);

@@ -21,10 +21,10 @@ namespace {
 ///     the middle        0.5 0.5
 class Quad final : public Shape {
  public:
-  Quad(const Vector3d& origin, const Vector3d& width, const Vector3d& height)
+  Quad(const Vector3d& origin, const Vector3d& width, const Vector3d& height, bool is_mirrored)
       : origin_(origin), width_(width), height_(height) {
     const Vector3d area = glm::cross(width, height);
-    normal_ = glm::normalize(area);
+    normal_ = glm::normalize(is_mirrored ? -area : area);
     face_ = {origin, width, height, normal_};
     along_width_ = glm::cross(height, area) / glm::dot(area, area);
     along_height_ = glm::cross(area, width) / glm::dot(area, area);
@@ -150,7 +150,8 @@ std::unique_ptr<Shape> make_quad(const Vector3d& origin, const Vector3d& width, 
   if (shapes::are_parallel(width, height)) {
     throw Error(ErrorKind::kScene, "'width' and 'height' are parallel: they span no surface");
   }
-  return std::make_unique<Quad>(transform.point(origin), transform.vector(width), transform.vector(height));
+  return std::make_unique<Quad>(transform.point(origin), transform.vector(width), transform.vector(height),
+                                transform.is_mirror());
 }
 
 }  // namespace raytracer

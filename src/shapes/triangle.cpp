@@ -13,8 +13,9 @@ namespace {
 /// Hit.u and Hit.v are the weights of b and c, and uv is the same.
 class Triangle final : public Shape {
  public:
-  Triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
+  Triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, bool is_mirrored)
       : corners_(a, b, c),
+        normal_(is_mirrored ? -corners_.normal() : corners_.normal()),
         bounds_(shapes::rounded_bounds(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)))) {}
 
   Box3f bounds() const override { return bounds_; }
@@ -37,7 +38,7 @@ class Triangle final : public Shape {
 
   PartExtent part_extent(std::uint32_t) const override {
     const double area = 0.5 * glm::length(glm::cross(corners_[1] - corners_[0], corners_[2] - corners_[0]));
-    return shapes::flat_extent(bounds_, area, corners_.normal());
+    return shapes::flat_extent(bounds_, area, normal_);
   }
 
   bool sample_part(std::uint32_t, const Vector3f& from, const Vector2f& u,
@@ -58,7 +59,7 @@ class Triangle final : public Shape {
 
  private:
   shapes::SeenTriangle seen_from(const Vector3f& from) const {
-    return {corners_[0], corners_[1], corners_[2], corners_.normal(), Vector3d(from)};
+    return {corners_[0], corners_[1], corners_[2], normal_, Vector3d(from)};
   }
 
   /// `weights` of b and c.
@@ -70,10 +71,11 @@ class Triangle final : public Shape {
     shapes::SurfaceBound bound;
     bound.arithmetic = 8 * kDoubleRounding * (glm::length(corners_[0]) + glm::length(corners_.extent()));
     bound.extent = corners_.extent();
-    return shapes::rounded_surface(point_of(weights), corners_.normal(), bound);
+    return shapes::rounded_surface(point_of(weights), normal_, bound);
   }
 
   shapes::TriangleCorners corners_;
+  Vector3d normal_;
   Box3f bounds_;
 };
 
@@ -88,7 +90,8 @@ std::unique_ptr<Shape> make_triangle(const Vector3d& a, const Vector3d& b, const
   if (shapes::are_parallel(b - a, c - a)) {
     throw Error(ErrorKind::kScene, "'a', 'b' and 'c' lie on one line: the triangle has no area");
   }
-  return std::make_unique<Triangle>(transform.point(a), transform.point(b), transform.point(c));
+  return std::make_unique<Triangle>(transform.point(a), transform.point(b), transform.point(c),
+                                    transform.is_mirror());
 }
 
 }  // namespace raytracer

@@ -4,7 +4,7 @@ import math
 import re
 import unittest
 
-from float_pictures import place, render, render_bytes
+from float_pictures import Picture, place, render, render_bytes
 
 ROOM = """
     camera { position @(0 1 3.9)  look_at @(0 1 0)  up ^(0 1 0)  vertical_fov 39 }
@@ -39,6 +39,11 @@ def blocks(picture, side=8):
     return result
 
 
+def mirror_image(picture):
+    values = [v for y in range(picture.height) for x in reversed(range(picture.width)) for v in picture.at(x, y)]
+    return Picture(picture.width, picture.height, values)
+
+
 def block_difference(a, b):
     """compare.py's block_rel: the root mean square of the relative differences of 8 x 8 blocks."""
     first, second = blocks(a), blocks(b)
@@ -63,6 +68,35 @@ class Relations(unittest.TestCase):
         for axis, degrees in (((0, 1, 0), 90), ((0, 1, 0), 37), ((1, 1, 1), 37)):
             turned = path(SKY + place(ROOM, axis=axis, degrees=degrees), 256)
             self.assertLess(block_difference(turned, once), 0.02, (axis, degrees))
+
+    def test_mirrored(self):
+        """A room, its lamp and what lies on its walls, mirrored, are the mirror image of the picture."""
+        camera, things = place(ROOM).split("\n", 2)[1:]
+        things += """triangle { a -0.9 0.2 0.5  b -0.6 0.9 0.5  c -0.9 0.2 -0.2
+                                 material { color (0.5 + n.y, 0.5, 0.5 - n.y) } }
+            quad { origin -0.9 1 0.5  width 0 0 -0.8  height 0 0.8 0  material { color 0.8  bump dots { scale 0.2 } } }"""
+        for method in ("path", "classic"):
+            def show(text):
+                return render(f"render {{ method {method}  samples 64 }}\n" + SKY + camera + text, "--size", SIZE)
+            expected = mirror_image(show(things))
+            for mirrored in (f"group {{ scale -1 1 1\n{things} }}",
+                             f"define room() {{\n{things} }}\nroom {{ scale -1 1 1 }}"):
+                self.assertLess(block_difference(show(mirrored), expected), 0.02, (method, mirrored))
+
+    def test_both_sides_of_an_open_surface(self):
+        """What has no inside looks alike from both sides, in both methods."""
+        for words in ("color 0 roughness 0.5 ior 2.4", "color 0.5 coat 1", "color 0.5 roughness 0.3",
+                      "metallic 1 roughness 0.5 eta 0.143 0.375 1.442 k 3.983 2.386 1.603",
+                      "transmission 1 thin true roughness 0.5"):
+            shown = [render(f"""camera {{ position 0 0 5  look_at 0 0 0  fov 1 }}
+                         render {{ method {method}  samples 16  bounces 1 }}
+                         disk {{ normal 0 0 {side}  radius 2  material {{ {words} }} }}
+                         light directional {{ direction 0.5 -0.5 -1 }}""", "--size", "4x4").at(1, 1)
+                     for method in ("path", "classic") for side in (1, -1)]
+            self.assertGreater(max(shown[0]), 0.005, words)
+            for other in (shown[1], shown[2], shown[3]):
+                for a, b in zip(shown[0], other):
+                    self.assertLessEqual(abs(a - b), 1e-4 + 0.01 * a, (words, shown))
 
     def test_twice_the_light(self):  # M5
         once = path(SKY + place(ROOM), 16)
