@@ -92,8 +92,14 @@ std::size_t TexelPyramid::first_used() const {
 TexelPyramid::Level TexelPyramid::base_level() const {
   static constexpr std::array kFormats = {Format::kTableByte, Format::kTableShort, Format::kHalf,
                                           Format::kFloat, Format::kRgbe};
-  return {picture_->width, picture_->height, kFormats[static_cast<std::size_t>(picture_->type)],
-          picture_->data.get() + channel_size(*picture_) * first_used(), picture_->texel_bytes()};
+  Level level;
+  level.width = picture_->width;
+  level.height = picture_->height;
+  level.format = kFormats[static_cast<std::size_t>(picture_->type)];
+  level.data = picture_->data.get() + channel_size(*picture_) * first_used();
+  level.texel_bytes = picture_->texel_bytes();
+  level.row_bytes = picture_->row_bytes();
+  return level;
 }
 
 bool TexelPyramid::is_constant() const {
@@ -116,7 +122,11 @@ void TexelPyramid::make_constant(const Color3f& value) {
   owned_bytes_ = sizeof value;
   owned_.push_back(std::make_unique<std::uint8_t[]>(owned_bytes_));
   std::memcpy(owned_.back().get(), &value, sizeof value);
-  levels_.push_back({1, 1, Format::kFloat, owned_.back().get(), sizeof value});
+  Level level;
+  level.width = level.height = 1;
+  level.data = owned_.back().get();
+  level.texel_bytes = level.row_bytes = sizeof value;
+  levels_.push_back(level);
 }
 
 // Floats that are not the values themselves are made so once, not at every look.
@@ -138,7 +148,11 @@ void TexelPyramid::convert_floats() {
     }
     std::memcpy(out + 4 * row * y, values.data(), 4 * row);
   });
-  levels_.back() = {from.width, from.height, Format::kFloat, out, 4 * channels};
+  Level& level = levels_.back();
+  level.format = Format::kFloat;
+  level.data = out;
+  level.texel_bytes = 4 * channels;
+  level.row_bytes = 4 * row;
 }
 
 // --- looking up --------------------------------------------------------------------------------------
@@ -176,9 +190,7 @@ template <class Function>
 auto TexelPyramid::with_texels(const Level& level, const Function& function) const {
   return with_decoder(level, [&](const auto& decode) {
     return function([&](int x, int y) {
-      const std::size_t index =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x);
-      const std::uint8_t* texel = level.data + index * level.texel_bytes;
+      const std::uint8_t* texel = level.at(x, y);
       const float first = decode(texel, 0);
       return is_number_ ? Color3f(first) : Color3f(first, decode(texel, 1), decode(texel, 2));
     });
@@ -195,11 +207,12 @@ float floor_of(float x) {
 
 // What follows is done to blocks of places: without branches but for those on `wrap`.
 
-/// To 0..1, where it is the same picture. Whatever is not a number goes to 0.
+/// To 0..1, where it is the same picture; clamped ones to as far beyond as the largest texel may reach.
+/// Whatever is not a number goes to the lower end.
 float wrapped(float x, TextureWrap wrap) {
   if (wrap == TextureWrap::kClamp) {
-    const float below = x < 1 ? x : 1.0f;
-    return x > 0 ? below : 0.0f;
+    const float below = x < 2 ? x : 2.0f;
+    return x > -1 ? below : -1.0f;
   }
   constexpr float kWhole = 0x1p23f;  // from here on there are no fractions
   const float near = std::abs(x) < kWhole ? x : 0.0f;
@@ -211,23 +224,38 @@ float wrapped(float x, TextureWrap wrap) {
   return there_and_back > 1 ? 2 - there_and_back : there_and_back;
 }
 
-/// The two texels of an axis between whose centres x, 0..1, lies.
+/// The texels that an axis has; clamped ones may go on by a frame on both sides.
+struct Axis {
+  int count, frame;
+  bool repeats;
+
+  Axis(int texels, int framed_by, TextureWrap wrap)
+      : count(texels),
+        frame(wrap == TextureWrap::kClamp ? framed_by : 0),
+        repeats(wrap == TextureWrap::kRepeat) {}
+};
+
+/// The two texels of an axis between whose centres x lies.
 struct Pair {
   int first = 0, second = 0;
   float weight = 0;  // of the second
 };
 
-Pair pair_at(float x, int count, bool repeats) {
-  const float position = x * static_cast<float>(count) - 0.5f;
+Pair pair_at(float x, const Axis& axis) {
+  const auto size = static_cast<float>(axis.count);
+  const float place = x * size - 0.5f, above = place > -1 ? place : -1.0f;
+  const float position = above < size ? above : size;
   const float below = floor_of(position);
   const int first = static_cast<int>(below), second = first + 1;
-  const int before = repeats ? count - 1 : 0, beyond = repeats ? 0 : count - 1;
-  return {first < 0 ? before : first, second >= count ? beyond : second, position - below};
+  const int least = -axis.frame, most = axis.count - 1 + axis.frame;
+  const int before = axis.repeats ? most : least, beyond = axis.repeats ? least : most;
+  const int within = first > most ? most : first;
+  return {within < least ? before : within, second > most ? beyond : second, position - below};
 }
 
-int index_at(float x, int count) {
-  const int index = static_cast<int>(x * static_cast<float>(count));
-  return index < count ? index : count - 1;
+int index_at(float x, const Axis& axis) {
+  const int index = static_cast<int>(floor_of(x * static_cast<float>(axis.count)));
+  return std::clamp(index, -axis.frame, axis.count - 1 + axis.frame);
 }
 
 struct alignas(64) PairBlock {
@@ -244,31 +272,16 @@ struct alignas(64) PairBlock {
 /// In the form a + t (b - a), which leaves equal values as they are.
 Color3f mixed(const Color3f& a, const Color3f& b, float t) { return a + t * (b - a); }
 
-/// Channel c, the texels above and below being decoded; mixed likewise.
-template <class Decode>
-float mixed(const Decode& decode, const std::uint8_t* upper, const std::uint8_t* lower, const Pair& x,
-            float below, std::size_t step, std::size_t c) {
-  const std::size_t left = step * static_cast<std::size_t>(x.first);
-  const std::size_t right = step * static_cast<std::size_t>(x.second);
-  const float upper_left = decode(upper + left, c), lower_left = decode(lower + left, c);
-  const float above_mixed = upper_left + x.weight * (decode(upper + right, c) - upper_left);
-  const float below_mixed = lower_left + x.weight * (decode(lower + right, c) - lower_left);
-  return above_mixed + below * (below_mixed - above_mixed);
-}
-
 }  // namespace
 
 Color3f TexelPyramid::bilinear(int level, const Vector2f& uv, TextureWrap wrap) const {
   const Level& pixels = levels_[static_cast<std::size_t>(level)];
-  const bool repeats = wrap == TextureWrap::kRepeat;
-  const Pair x = pair_at(wrapped(uv.x, wrap), pixels.width, repeats);
-  const Pair y = pair_at(1 - wrapped(uv.y, wrap), pixels.height, repeats);
-  const std::size_t step = pixels.texel_bytes, row = step * static_cast<std::size_t>(pixels.width);
-  const std::uint8_t* upper = pixels.data + row * static_cast<std::size_t>(y.first);
-  const std::uint8_t* lower = pixels.data + row * static_cast<std::size_t>(y.second);
-  return with_decoder(pixels, [&](const auto& decode) {
-    const auto channel = [&](std::size_t c) { return mixed(decode, upper, lower, x, y.weight, step, c); };
-    return is_number_ ? Color3f(channel(0)) : Color3f(channel(0), channel(1), channel(2));
+  const Pair x = pair_at(wrapped(uv.x, wrap), {pixels.width, pixels.frame, wrap});
+  const Pair y = pair_at(1 - wrapped(uv.y, wrap), {pixels.height, pixels.frame, wrap});
+  return with_texels(pixels, [&](const auto& texel_at) {
+    const Color3f upper = mixed(texel_at(x.first, y.first), texel_at(x.second, y.first), x.weight);
+    const Color3f lower = mixed(texel_at(x.first, y.second), texel_at(x.second, y.second), x.weight);
+    return mixed(upper, lower, y.weight);
   });
 }
 
@@ -276,10 +289,10 @@ void TexelPyramid::bilinear(const Vector2Block& uv, int count, TextureWrap wrap,
   const Level pixels = levels_.front();
   PairBlock x, y;
   with_constant<TextureWrap::kRepeat, TextureWrap::kMirror, TextureWrap::kClamp>(wrap, [&](auto kind) {
-    constexpr bool kRepeats = kind == TextureWrap::kRepeat;
+    const Axis across(pixels.width, pixels.frame, kind), down(pixels.height, pixels.frame, kind);
     for (int i = 0; i < kBlockSize; ++i) {
-      x.set(i, pair_at(wrapped(uv.x[i], kind), pixels.width, kRepeats));
-      y.set(i, pair_at(1 - wrapped(uv.y[i], kind), pixels.height, kRepeats));
+      x.set(i, pair_at(wrapped(uv.x[i], kind), across));
+      y.set(i, pair_at(1 - wrapped(uv.y[i], kind), down));
     }
   });
   ColorBlock upper_left, upper_right, lower_left, lower_right;
@@ -302,8 +315,8 @@ void TexelPyramid::bilinear(const Vector2Block& uv, int count, TextureWrap wrap,
 
 Color3f TexelPyramid::nearest(int level, const Vector2f& uv, TextureWrap wrap) const {
   const Level& pixels = levels_[static_cast<std::size_t>(level)];
-  const int x = index_at(wrapped(uv.x, wrap), pixels.width);
-  const int y = index_at(1 - wrapped(uv.y, wrap), pixels.height);
+  const int x = index_at(wrapped(uv.x, wrap), {pixels.width, pixels.frame, wrap});
+  const int y = index_at(1 - wrapped(uv.y, wrap), {pixels.height, pixels.frame, wrap});
   return with_texels(pixels, [&](const auto& texel_at) { return texel_at(x, y); });
 }
 
@@ -312,13 +325,14 @@ Color3f TexelPyramid::nearest(int level, const Vector2f& uv, TextureWrap wrap) c
 template <class Decode>
 void TexelPyramid::decode_with(const Level& level, int y, float* out, const Decode& decode) const {
   const std::size_t channels = is_number_ ? 1 : 3;
-  const std::uint8_t* texel =
-      level.data + static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) * level.texel_bytes;
-  for (int x = 0; x < level.width; ++x, texel += level.texel_bytes, out += channels) {
+  const auto within = [&](int i, int count) { return std::clamp(i, -level.frame, count - 1 + level.frame); };
+  for (int x = -1; x <= level.width; ++x, out += channels) {
+    const std::uint8_t* texel = level.at(within(x, level.width), within(y, level.height));
     for (std::size_t c = 0; c < channels; ++c) out[c] = decode(texel, c);
   }
 }
 
+// With the frame, or what stands for it, on both sides: y from -1 to the height.
 void TexelPyramid::decode_row(const Level& level, int y, float* out) const {
   with_decoder(level, [&](const auto& decode) { decode_with(level, y, out, decode); });
 }
@@ -342,59 +356,81 @@ Share share_of(int index, int count, int of_count) {
   return share;
 }
 
+/// Of all texels of an axis, its frame's before and after them: these are the frame's alone.
 std::vector<Share> shares_of(int count, int of_count) {
-  std::vector<Share> shares;
+  std::vector<Share> shares = {{-1, {1}}};
   for (int i = 0; i < count; ++i) shares.push_back(share_of(i, count, of_count));
+  shares.push_back({of_count, {1}});
   return shares;
+}
+
+/// The average of a row's texels by shares, whose first number is that of texel -1.
+void average_columns(const std::vector<float>& row, const std::vector<Share>& columns, std::size_t channels,
+                     std::vector<float>& averages) {
+  averages.clear();
+  for (const Share& column : columns) {
+    const float* texel = row.data() + channels * static_cast<std::size_t>(column.first + 1);
+    for (std::size_t c = 0; c < channels; ++c) {
+      float average = 0;
+      for (std::size_t i = 0; i < column.weights.size(); ++i) {
+        average += column.weights[i] * texel[i * channels + c];
+      }
+      averages.push_back(average);
+    }
+  }
+}
+
+void store_as_shorts(const std::vector<float>& values, std::uint8_t* out) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto rounded = static_cast<std::uint16_t>(std::clamp(values[k], 0.0f, 1.0f) * 65535 + 0.5f);
+    std::memcpy(out + 2 * k, &rounded, 2);
+  }
 }
 
 }  // namespace
 
-void TexelPyramid::add_level() {
-  const Level from = levels_.back();
+// Half as wide and high, in a frame of one texel that averages what a clamped picture goes on as: its edges
+// along themselves, its corners.
+TexelPyramid::Level TexelPyramid::half_of(const Level& from) const {
   const std::size_t channels = is_number_ ? 1 : 3;
   const bool is_short = !table_.empty();  // of values in 0..1
-  const std::size_t number_bytes = is_short ? 2 : 4;
-  Level to{std::max(from.width / 2, 1), std::max(from.height / 2, 1),
-           is_short ? Format::kShort : Format::kFloat, nullptr, channels * number_bytes};
-  const std::size_t row_bytes = to.texel_bytes * static_cast<std::size_t>(to.width);
-  owned_.push_back(
-      std::make_unique_for_overwrite<std::uint8_t[]>(row_bytes * static_cast<std::size_t>(to.height)));
-  owned_bytes_ += row_bytes * static_cast<std::size_t>(to.height);
-  std::uint8_t* out = owned_.back().get();
-  to.data = out;
+  Level to;
+  to.width = std::max(from.width / 2, 1);
+  to.height = std::max(from.height / 2, 1);
+  to.frame = 1;
+  to.format = is_short ? Format::kShort : Format::kFloat;
+  to.texel_bytes = channels * (is_short ? 2 : 4);
+  to.row_bytes = to.texel_bytes * static_cast<std::size_t>(to.width + 2);
+  return to;
+}
 
-  const std::vector<Share> columns = shares_of(to.width, from.width);
-  constexpr int kBand = 16;
-  parallel_for(static_cast<std::size_t>((to.height - 1) / kBand + 1), [&](std::size_t band) {
-    const std::size_t row_values = channels * static_cast<std::size_t>(from.width);
-    std::vector<float> row(row_values), sum(row_values), averages(channels * columns.size());
-    const int first = static_cast<int>(band) * kBand;
-    for (int y = first; y < std::min(first + kBand, to.height); ++y) {
-      const Share rows = share_of(y, to.height, from.height);
-      std::fill(sum.begin(), sum.end(), 0.0f);
-      for (std::size_t i = 0; i < rows.weights.size(); ++i) {
-        decode_row(from, rows.first + static_cast<int>(i), row.data());
-        for (std::size_t k = 0; k < row_values; ++k) sum[k] += rows.weights[i] * row[k];
+void TexelPyramid::add_level() {
+  const Level from = levels_.back();
+  Level to = half_of(from);
+  const std::size_t bytes = to.row_bytes * static_cast<std::size_t>(to.height + 2);
+  owned_.push_back(std::make_unique_for_overwrite<std::uint8_t[]>(bytes));
+  owned_bytes_ += bytes;
+  std::uint8_t* const out = owned_.back().get();
+  to.data = out + to.row_bytes + to.texel_bytes;
+
+  const std::size_t channels = is_number_ ? 1 : 3;
+  const std::vector<Share> columns = shares_of(to.width, from.width),
+                           rows = shares_of(to.height, from.height);
+  constexpr std::size_t kBand = 16;
+  parallel_for((rows.size() - 1) / kBand + 1, [&](std::size_t band) {
+    std::vector<float> row(channels * static_cast<std::size_t>(from.width + 2)), sum(row.size()), averages;
+    for (std::size_t y = band * kBand; y < std::min((band + 1) * kBand, rows.size()); ++y) {
+      std::ranges::fill(sum, 0.0f);
+      for (std::size_t i = 0; i < rows[y].weights.size(); ++i) {
+        decode_row(from, rows[y].first + static_cast<int>(i), row.data());
+        for (std::size_t k = 0; k < row.size(); ++k) sum[k] += rows[y].weights[i] * row[k];
       }
-      for (std::size_t x = 0; x < columns.size(); ++x) {
-        const float* texel = sum.data() + channels * static_cast<std::size_t>(columns[x].first);
-        for (std::size_t c = 0; c < channels; ++c) {
-          float average = 0;
-          for (std::size_t i = 0; i < columns[x].weights.size(); ++i) {
-            average += columns[x].weights[i] * texel[i * channels + c];
-          }
-          averages[channels * x + c] = average;
-        }
-      }
-      std::uint8_t* out_row = out + row_bytes * static_cast<std::size_t>(y);
-      if (!is_short) {
-        std::memcpy(out_row, averages.data(), row_bytes);
-        continue;
-      }
-      for (std::size_t k = 0; k < averages.size(); ++k) {
-        const auto rounded = static_cast<std::uint16_t>(std::clamp(averages[k], 0.0f, 1.0f) * 65535 + 0.5f);
-        std::memcpy(out_row + 2 * k, &rounded, 2);
+      average_columns(sum, columns, channels, averages);
+      std::uint8_t* const out_row = out + to.row_bytes * y;
+      if (to.format == Format::kShort) {
+        store_as_shorts(averages, out_row);
+      } else {
+        std::memcpy(out_row, averages.data(), to.row_bytes);
       }
     }
   });

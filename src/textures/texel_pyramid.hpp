@@ -69,9 +69,14 @@ class TexelPyramid {
   enum class Format : std::uint8_t { kTableByte, kTableShort, kShort, kHalf, kFloat, kRgbe };
   struct Level {
     int width = 0, height = 0;
+    int frame = 0;  // of so many texels around it that only clamped pictures show
     Format format = Format::kFloat;
     const std::uint8_t* data = nullptr;  // the first of the channels that are used; others follow it
-    std::size_t texel_bytes = 0;
+    std::size_t texel_bytes = 0, row_bytes = 0;
+
+    const std::uint8_t* at(int x, int y) const {
+      return data + static_cast<std::ptrdiff_t>(row_bytes) * y + static_cast<std::ptrdiff_t>(texel_bytes) * x;
+    }
   };
 
   Level base_level() const;
@@ -81,6 +86,7 @@ class TexelPyramid {
   void convert_floats();
   void make_constant(const Color3f& value);
   bool is_constant() const;
+  Level half_of(const Level& from) const;
   void add_level();
   void decode_row(const Level& level, int y, float* out) const;
   template <class Function>

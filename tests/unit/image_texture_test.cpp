@@ -96,6 +96,31 @@ TEST_CASE("a picture repeats, is mirrored or goes on as its edge") {
   CHECK(reds(TextureWrap::kClamp, -5) == Approx(100));
 }
 
+TEST_CASE("a clamped picture goes on as its edge at every scale") {
+  const auto is_edge = [](int x, int y) { return x == 0 || y == 0 || x == 63 || y == 47; };
+  const auto picture = byte_picture(64, 48, 3, [&](int x, int y, int c) {
+    return is_edge(x, y) ? 200 + ((x + y) % 2 == 0 ? 20 * c : -20 * c) : 10;
+  });
+  const TexturePointer texture = texture_of(picture, kNumber, {.wrap = TextureWrap::kClamp});
+  for (const bool is_rough : {false, true}) {
+    for (const bool is_coarse : {false, true}) {
+      for (const float width : {0.01f, 0.05f, 0.2f, 0.7f, 3.0f, 40.0f}) {
+        TexturePoint point;
+        point.is_rough = is_rough;
+        point.is_coarse = is_coarse && !is_rough;
+        point.uv_dx = {width, 0};
+        point.uv_dy = {0, width};
+        for (const Vector2f far :
+             {Vector2f(1, 0.5f), Vector2f(-1, 0.5f), Vector2f(0.5f, 1), Vector2f(0.5f, -1)}) {
+          point.uv = Vector2f(0.5f) + (3 + 3 * width) * (far - Vector2f(0.5f));
+          INFO("width " << width << ", at " << point.uv.x << " " << point.uv.y);
+          CHECK(255 * texture->at(point).x == Approx(200).margin(1));
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("a texture is scaled, turned and shifted") {
   const TexturePlacement turned{.rotate = 90, .wrap = TextureWrap::kRepeat};
   // (0.25, 0.75) is (-0.75, 0.25) a quarter turn further.
@@ -310,6 +335,7 @@ TEST_CASE("close by a footprint blurs nothing") {
 TEST_CASE("a pyramid tells its memory and takes a third more texels than the picture") {
   const TexelPyramid pyramid(byte_picture(64, 32, 3, [](int x, int, int) { return x; }), kLight);
   CHECK(pyramid.level_count() == 7);
-  const std::size_t texels = 32 * 16 + 16 * 8 + 8 * 4 + 4 * 2 + 2 * 1 + 1;
+  // Each level in a frame of one texel.
+  const std::size_t texels = 34 * 18 + 18 * 10 + 10 * 6 + 6 * 4 + 4 * 3 + 3 * 3;
   CHECK(pyramid.bytes() == texels * 3 * 2 + 256 * 4);
 }

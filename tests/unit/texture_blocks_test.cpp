@@ -213,7 +213,7 @@ TEST_CASE("sixteen points of a formula get what each gets alone", "[textures]") 
   for (const std::string formula :
        {"0.5 + 0.3 * sin(360 * u) * cos(180 * v) + 0.1 * tan(p.x)", "abs(n) * (p.x % 1, p.y, -p.z / v)",
         "noise(4 * p) * random(floor(p.x), floor(p.y)) + length(p) - dot(p, n)",
-        "if p.x < 0.2 or v > 0.5 then normalize(p) else (u, v, max(p.x, p.y) ^ 1.5)",
+        "p.x < 0.2 or v > 0.5 ? normalize(p) : (u, v, max(p.x, p.y) ^ 1.5)",
         "mix(clamp(p.y, 0, 1), smoothstep(0, 1, u), round(v)) + sqrt(u) + exp(-p.x * p.x)"}) {
     scenes.push_back(load_scene_text("sphere { material { color (" + formula + ") } }", "formula"));
     INFO(formula);
