@@ -93,7 +93,8 @@ TEST_CASE("patterns at known points", "[textures]") {
 TEST_CASE("patterns of edges are averaged over the footprint exactly", "[textures]") {
   std::mt19937 engine(3);
   const auto number = [&] { return static_cast<float>(engine()) * 0x1p-32F; };
-  for (const TexturePointer& texture : {make_checker(setup()), make_stripes(setup(), 0.3F)}) {
+  for (const TexturePointer& texture : {make_checker(setup()), make_stripes(setup(), 0.3F),
+                                        make_dots(setup(), 0.3F), make_dots(setup(), 0.5F)}) {
     for (int i = 0; i < 20; ++i) {
       // The footprint's box is that of a square of side sqrt(1): its own edges.
       const Vector3f middle = {10 * number(), 10 * number(), 0.5F};
