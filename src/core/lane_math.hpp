@@ -21,12 +21,13 @@ inline float sine_of_turns(float x) {
   return std::copysign(t * series, turn);
 }
 
+/// Below it half turns are counted exactly.
+inline constexpr double kMostDegrees = 1e15;
+
 /// The sine of an angle in degrees, within 3e-16; exact at quarter turns, where scenes meet them: nobody
-/// wants 6e-17 where a 0 belongs. 0 for angles beyond 1e15.
-inline double sine_of_degrees(double x) {
-  const double near = std::abs(x) < 1e15 ? x : 0.0;
-  const double half_turns = std::floor(near / 180 + 0.5), rest = near - 180 * half_turns,
-               size = std::abs(rest);
+/// wants 6e-17 where a 0 belongs. |x| < kMostDegrees.
+inline double sine_of_near_degrees(double x) {
+  const double half_turns = std::floor(x / 180 + 0.5), rest = x - 180 * half_turns, size = std::abs(rest);
   // Taylor's series of the sine up to 45 degrees, from there on of the cosine of what is left to 90.
   const double t = (size > 45 ? 90 - size : size) * (kPi / 180), z = t * t;
   const double sine =
@@ -46,7 +47,15 @@ inline double sine_of_degrees(double x) {
   return std::copysign(value, is_odd ? -rest : rest) + 0.0;  // no negative 0
 }
 
-inline double cosine_of_degrees(double x) { return sine_of_degrees(x + 90); }
+inline double cosine_of_near_degrees(double x) { return sine_of_near_degrees(x + 90); }
+
+/// Likewise of any angle; with a branch.
+inline double sine_of_degrees(double x) {
+  return sine_of_near_degrees(std::abs(x) < kMostDegrees ? x : std::fmod(x, 360));
+}
+inline double cosine_of_degrees(double x) {
+  return cosine_of_near_degrees(std::abs(x) < kMostDegrees ? x : std::fmod(x, 360));
+}
 
 /// The logarithm to the base 2 of a normal number above 0, within 2e-7 of it and of 1.
 inline float log2_of(float x) {

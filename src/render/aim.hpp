@@ -22,6 +22,9 @@ Ray3f camera_ray(const Scene& scene, const Image& image, const glm::ivec2& pixel
 /// Whether so few samples share a pixel that each has to stand for its part of it as exactly as can be.
 constexpr bool are_few(int samples) { return samples < 16; }
 
+/// Whether so many do that no part of it has to stand for itself.
+constexpr bool are_many(int samples) { return samples > 64; }
+
 /// How wide what that ray stands for is, one of as many samples of the pixel.
 RayCone camera_cone(const Scene& scene, const Image& image, const glm::ivec2& pixel, const Vector2f& within,
                     const Vector2f& lens, const Ray3f& ray, int samples);

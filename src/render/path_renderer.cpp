@@ -83,7 +83,7 @@ void PathRenderer::set_up(Batch& batch, int first_sample, int end_sample) const 
 
 void PathRenderer::set_cones(Batch& batch, std::size_t samples) const {
   batch.cones.resize(batch.rays.size());
-  if (are_few(settings_.samples)) {
+  if (!are_many(settings_.samples)) {
     for (std::size_t i = 0; i < batch.cones.size(); ++i) {
       batch.cones[i] = camera_cone(scene_, image_, batch.pixels[i / samples], batch.places[i],
                                    batch.on_lens[i], batch.rays[i], settings_.samples);

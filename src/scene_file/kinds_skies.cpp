@@ -86,6 +86,10 @@ void build_gradient_sky(const SkyInput& in, BlockContext& block) {
 }
 
 void build_sun_sky(const SkyInput& in, BlockContext& block) {
+  constexpr double kNight = -8;
+  if (in.elevation < kNight) {
+    block.warning("elevation", "the sun is so far below the horizon that the sky is black", "elevation 10");
+  }
   set_sky(in, block, [&] {
     return make_sun_sky({in.elevation, in.azimuth, in.turbidity, Color3f(in.ground_color.rgb), in.disk,
                          in.disk_size, in.strength});

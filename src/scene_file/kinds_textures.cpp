@@ -192,7 +192,9 @@ constexpr PropertyRow kPicture[] = {
         .within({-1e6, 1e6}),
     property<&PictureInput::uv_offset>("uv_offset", "Where in the picture u and v of 0 are.")
         .within({-1e6, 1e6}),
-    property<&PictureInput::uv_rotate>("uv_rotate", "Turns u and v, counter-clockwise.").in("degrees"),
+    property<&PictureInput::uv_rotate>("uv_rotate",
+                                       "Turns u and v, counter-clockwise, before they are scaled and moved.")
+        .in("degrees"),
     property<&PictureInput::scale>("scale", "Grows it on the surface; the other way round of uv_scale.")
         .within({1e-6, 1e6}),
     property<&PictureInput::curve>("curve", "What its values are, whatever the file says.").one_of(kCurves),

@@ -59,7 +59,7 @@ class Triangle final : public Shape {
 
  private:
   shapes::SeenTriangle seen_from(const Vector3f& from) const {
-    return {corners_[0], corners_[1], corners_[2], normal_, Vector3d(from)};
+    return {corners_[0], corners_[1], corners_[2], corners_.normal(), Vector3d(from)};
   }
 
   /// `weights` of b and c.

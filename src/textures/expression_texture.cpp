@@ -68,6 +68,13 @@ double length_of(const Vector3d& v) {
 Vector3d normalized(const Vector3d& v) { return length_of(v) > 0 ? glm::normalize(v) : Vector3d(0); }
 
 template <int N>
+bool are_near_degrees(const double* a) {
+  bool are_near = true;
+  for (int lane = 0; lane < N; ++lane) are_near &= std::abs(a[lane]) < kMostDegrees;
+  return are_near;
+}
+
+template <int N>
 double random_at(const double* seeds, std::size_t count, int lane) {
   if constexpr (N == 1) return random_number(std::span(seeds, count));
   double own[ExpressionProgram::kMostPlaces];
@@ -143,8 +150,10 @@ Numbers<N> take(const ExpressionInstruction& i, double* r, const Numbers<N>& las
     case Step::kChoose:
       return put<N>(to, [=](int l) { return a[l] != 0 ? b[l] : c[l]; });
     case Step::kSin:
+      if (are_near_degrees<N>(a)) return put<N>(to, [=](int l) { return sine_of_near_degrees(a[l]); });
       return put<N>(to, [=](int l) { return sine_of_degrees(a[l]); });
     case Step::kCos:
+      if (are_near_degrees<N>(a)) return put<N>(to, [=](int l) { return cosine_of_near_degrees(a[l]); });
       return put<N>(to, [=](int l) { return cosine_of_degrees(a[l]); });
     case Step::kTan:
       return put<N>(to, [=](int l) {

@@ -90,6 +90,10 @@ class Messages(unittest.TestCase):
                 self.assertEqual(len(told), message is not None, told)
                 self.assertTrue(all(message in m for m in told), told)
 
+    def test_a_sun_far_below_the_horizon(self):
+        self.assert_says("sky sun { elevation -30 }\nsphere {}", 2, "elevation -30", "warning",
+                         "the sun is so far below the horizon that the sky is black", "elevation 10")
+
     def test_a_black_scene(self):
         code, messages = check("camera { position 0 0 5 } light { intensity 0 position 0 3 3 } sphere { }")
         self.assertEqual((code, [m["severity"] for m in messages]), (0, ["warning"]))

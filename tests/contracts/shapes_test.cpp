@@ -47,7 +47,6 @@ struct Case {
   std::function<bool(const Vector3d&, double margin)> is_within;
   bool is_closed = true;
   bool is_convex = true;    // a ray that leaves to the front never meets the shape again
-  bool is_spanned = false;  // by edges: a mirror turns the normal around
   bool is_rounded = false;  // its corners are floats
 };
 
@@ -134,14 +133,14 @@ std::vector<Case> open_cases() {
          const glm::dvec2 uv = weights(p);
          return uv.x >= margin && uv.x <= 1 - margin && uv.y >= margin && uv.y <= 1 - margin;
        },
-       false, true, true},
+       false, true},
       {"triangle", [=](const Transform& m) { return make_triangle(corner, corner + w, corner + h, m); },
        plane_side,
        [=](const Vector3d& p, double margin) {
          const glm::dvec2 uv = weights(p);
          return uv.x >= margin && uv.y >= margin && uv.x + uv.y <= 1 - margin;
        },
-       false, true, true},
+       false, true},
       {"plane", [=](const Transform& m) { return make_plane(corner, n, m); }, plane_side, always, false},
       {"disk", [=](const Transform& m) { return make_disk(corner, n, 0.8, m); }, plane_side,
        [=](const Vector3d& p, double margin) { return glm::length(p - corner) <= 0.8 - margin; }, false},
@@ -284,10 +283,8 @@ std::string brackets_surface(const Placed& placed, const SurfacePoint& point) {
   const Vector3d position(point.position);
   const Vector3d step = static_cast<double>(point.position_error) * Vector3d(point.normal);
   double front = placed.side(position + step), back = placed.side(position - step);
-  // The mirrored edges of a quad, and the tube that ends inside another one in a spindle, face the other way.
-  const bool is_mirrored = glm::determinant(placed.to_own.linear) < 0;
-  if (placed.kind.is_spanned ? is_mirrored : placed.kind.name == "spindle" && front < 0)
-    std::swap(front, back);
+  // The tube that ends inside another one in a spindle faces the other way.
+  if (placed.kind.name == "spindle" && front < 0) std::swap(front, back);
 
   double noise = 1e-15 * (1 + glm::length(position) / glm::length(placed.to_world.linear[0]));
   if (placed.kind.is_rounded)

@@ -174,7 +174,9 @@ TEST_CASE("quad: edges, both sides, uv, mirror", "[shapes]") {
                    {{-1, 1, 0}, z, {0, 1}},
                    {{0, 0, 0}, z, {0.5f, 0.5f}}});
   const auto mirrored = make_quad(Vector3d(-1, -1, 0), 2.0 * kX, 2.0 * kY, scaled({-1, 1, 1}));
-  REQUIRE(point_at(*mirrored, Vector3f(0), z).normal == -z);
+  REQUIRE(point_at(*mirrored, Vector3f(0), z).normal == z);  // it faces where its mirror image would
+  const auto turned_away = make_quad(Vector3d(-1, -1, 0), 2.0 * kX, 2.0 * kY, scaled({1, 1, -1}));
+  REQUIRE(point_at(*turned_away, Vector3f(0), z).normal == -z);
 }
 
 TEST_CASE("triangle: corners, uv, normal", "[shapes]") {
