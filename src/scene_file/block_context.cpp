@@ -361,6 +361,11 @@ void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
     builder_.draft_.named_shapes.try_emplace(std::string(name_), shape->bounds());
   }
   if (row_.is_sheet) warn_of_solid_sheet(builder_.draft_.scene.materials[material]);
+  constexpr std::size_t kMostPlaces = 1000;
+  auto& places = builder_.draft_.shining_places;
+  if (builder_.draft_.scene.materials[material].is_emissive() && places.size() < kMostPlaces) {
+    places.emplace(shape.get(), header());
+  }
   builder_.store_.add(std::move(shape), material, depends_on_time());
 }
 

@@ -58,8 +58,10 @@ struct SceneDraft {
   std::vector<CameraDraft> cameras;
   RenderDraft render;
   std::vector<Place> light_places;  ///< of the scene's lights, in their order
-  double duration = 0, fps = 24;    ///< of `animation`
-  Arena nodes;                      ///< of nodes put together while building
+  /// Of shapes that shine and stand by themselves, as many as messages may need.
+  std::unordered_map<const Shape*, Place> shining_places;
+  double duration = 0, fps = 24;  ///< of `animation`
+  Arena nodes;                    ///< of nodes put together while building
 };
 
 }  // namespace raytracer::scene_file

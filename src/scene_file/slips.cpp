@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "materials/media.hpp"
@@ -110,7 +111,8 @@ std::array<Vector3f, 8> corners_of(const Box3f& box) {
 }
 
 // Likewise what shines.
-void warn_of_buried_shapes(const SceneDescription& scene, const std::string& name, Diagnostics& diagnostics) {
+void warn_of_buried_shapes(const SceneDraft& draft, const std::string& name, Diagnostics& diagnostics) {
+  const SceneDescription& scene = draft.scene;
   std::vector<std::size_t> emitters;
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     if (is_emitter(scene, i)) emitters.push_back(i);
@@ -122,13 +124,17 @@ void warn_of_buried_shapes(const SceneDescription& scene, const std::string& nam
       return cover.is_there && !cover.is_glass;
     });
   };
-  const auto hidden = std::ranges::count_if(emitters, is_hidden);
-  if (hidden == 0) return;
-  diagnostics.warning(
-      name,
-      hidden == 1 ? "a shape that shines stands inside a closed shape, which hides it"
-                  : fmt::format("{} shapes that shine stand inside closed shapes, which hide them", hidden),
-      "give the outer shape a material with 'transmission', or move one of them");
+  const auto last = std::ranges::remove_if(emitters, std::not_fn(is_hidden)).begin();
+  emitters.erase(last, emitters.end());
+  if (emitters.empty()) return;
+  const std::string message =
+      emitters.size() == 1
+          ? "a shape that shines stands inside a closed shape, which hides it"
+          : fmt::format("{} shapes that shine stand inside closed shapes, which hide them", emitters.size());
+  const char* const hint = "give the outer shape a material with 'transmission', or move one of them";
+  const auto place = draft.shining_places.find(scene.shapes[emitters.front()].get());
+  if (place == draft.shining_places.end()) return diagnostics.warning(name, message, hint);
+  diagnostics.warning(place->second, message, hint);
 }
 
 // A camera in an opaque shape with no light in it. With a light that is a room.
@@ -185,7 +191,7 @@ void warn_of_slips(const SceneDraft& draft, const CameraDraft& camera, Method me
                    Diagnostics& diagnostics) {
   warn_of_darkness(draft.scene, name, diagnostics);
   warn_of_buried_lights(draft, method, diagnostics);
-  warn_of_buried_shapes(draft.scene, name, diagnostics);
+  warn_of_buried_shapes(draft, name, diagnostics);
   warn_of_buried_camera(draft.scene, camera, name, diagnostics);
   warn_of_camera_in_glass(draft.scene, camera, name, diagnostics);
 }

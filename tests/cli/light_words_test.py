@@ -71,6 +71,11 @@ class Messages(unittest.TestCase):
                          "the light stands inside a closed shape, which hides it",
                          "give the shape a material with 'emission' to see it shine")
 
+    def test_a_shining_shape_in_a_ball(self):
+        self.assert_says("sphere { }\nsphere { radius 0.3  material { emission 1 } }", 3,
+                         "sphere", "warning", "a shape that shines stands inside a closed shape, which hides it",
+                         "give the outer shape a material with 'transmission', or move one of them")
+
     def test_what_nobody_can_see(self):
         eye = "camera { position 0 0 5 }\n"
         shining = "sphere { radius 0.3  material { emission 1 } }"
