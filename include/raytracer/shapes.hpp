@@ -13,11 +13,12 @@ namespace raytracer {
 /// the pole +y (1).
 std::unique_ptr<Shape> make_sphere(const Vector3d& center, double radius, const Transform& = {});
 
-/// The parallelogram origin + u width + v height with u, v in [0, 1]; normal along width x height.
+/// The parallelogram origin + u width + v height with u, v in [0, 1]; normal along width x height,
+/// before the transform.
 std::unique_ptr<Shape> make_quad(const Vector3d& origin, const Vector3d& width, const Vector3d& height,
                                  const Transform& = {});
 
-/// The triangle a b c; normal along (b - a) x (c - a); u, v are the weights of b and c.
+/// The triangle a b c; normal along (b - a) x (c - a), before the transform; u, v are the weights of b and c.
 std::unique_ptr<Shape> make_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                                      const Transform& = {});
 

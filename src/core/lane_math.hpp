@@ -10,7 +10,8 @@
 
 namespace raytracer {
 
-/// The sine of 2 pi x, within 2e-7. |x| < 2^22.
+/// The sine of 2 pi x, within 2e-7; from 2^22 on x has no fractions that count, and it is some number of
+/// -1..1.
 inline float sine_of_turns(float x) {
   const float turn = x - std::floor(x + 0.5F), size = std::abs(turn);
   const float t = static_cast<float>(2 * kPi) * (size > 0.25F ? 0.5F - size : size), z = t * t;

@@ -307,8 +307,8 @@ void PathTracer::split_strong() {
     if (!is_strong || path.splits == kMostSplits) continue;
     path.throughput *= 0.5F;
     ++path.splits;
-    paths_.push_back(Path(path));
     numbers_.push_back({hash_bits(numbers_[i].reversed + path.splits)});
+    paths_.push_back(Path(path));  // `path` is gone after that
     if (has_media_) {
       media_of_.resize(paths_.size());
       media_of_.back() = media_of_[i];
@@ -335,7 +335,8 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
   }
   Color3f color = material.color;
   if (textures != nullptr) {
-    const bool may_wait = path.spread.is_rough || (depth == 0 && cones_[path.slot].is_one_of_many());
+    const bool may_wait =
+        !cones_.empty() && (path.spread.is_rough || (depth == 0 && cones_[path.slot].is_one_of_many()));
     if (may_wait && group == nullptr) group = new_group(*textures, path.spread.is_rough);
     if (may_wait && group != nullptr) {
       ask_color(*group, path, hit, surface);

@@ -45,8 +45,9 @@ struct RayCone {
   Vector3f dy_at(float t) const { return edges.origin_dy + t * edges.direction_dy; }
   /// Whether all that is known are the edges: it is one of many that share a pixel.
   bool is_one_of_many() const {
-    const bool has_edges = edges.direction_dx != Vector3f(0) || edges.origin_dx != Vector3f(0);
-    return has_edges && !is_coarse && aside_origin == Vector3f(0) && aside_direction == Vector3f(0);
+    const bool has_dx = edges.direction_dx != Vector3f(0) || edges.origin_dx != Vector3f(0);
+    const bool has_dy = edges.direction_dy != Vector3f(0) || edges.origin_dy != Vector3f(0);
+    return has_dx && has_dy && !is_coarse && aside_origin == Vector3f(0) && aside_direction == Vector3f(0);
   }
   Footprint footprint_at(float t) const {
     Footprint footprint = spread.footprint_at(t);

@@ -17,7 +17,14 @@ struct TextureQueries {
   alignas(64) float width[kBlockSize]{};  ///< of the footprint; of rough ones alone
   /// Of the eye's alone: the surface's own normal, the way of the ray, and the footprint's
   /// edges.
-  Vector3Block normal{}, direction{}, dx{}, dy{};
+  Vector3Block normal, direction, dx{}, dy{};
+
+  TextureQueries() {
+    for (int i = 0; i < kBlockSize; ++i) {
+      normal.set(i, {0, 0, 1});
+      direction.set(i, {0, 0, 1});
+    }
+  }
 
   void set_rough(int i, const SurfacePoint& surface, const SurfaceDetail& detail, float footprint_width) {
     set_place(i, surface, detail);

@@ -18,8 +18,10 @@ namespace {
               vv = glm::dot(along_v, along_v);
   const float determinant = uu * vv - uv * uv;
   const float u = glm::dot(along_u, way), v = glm::dot(along_v, way);
-  const float scale = determinant > 0 ? determinant : kInfinity;
-  return {(vv * u - uv * v) / scale, (uu * v - uv * u) / scale};
+  const bool has_uv = determinant > 0;
+  const float scale = has_uv ? determinant : 1.0F;
+  const Vector2f change((vv * u - uv * v) / scale, (uu * v - uv * u) / scale);
+  return {has_uv ? change.x : 0.0F, has_uv ? change.y : 0.0F};
 }
 
 // `v` from a point on the ray to one beside it, carried along the ray back onto the surface's plane. Seen

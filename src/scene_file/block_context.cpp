@@ -364,7 +364,7 @@ void BlockContext::add_shape(std::unique_ptr<Shape> shape) {
   constexpr std::size_t kMostPlaces = 1000;
   auto& places = builder_.draft_.shining_places;
   if (builder_.draft_.scene.materials[material].is_emissive() && places.size() < kMostPlaces) {
-    places.emplace(shape.get(), header());
+    places.insert_or_assign(shape.get(), header());  // at an address that another may have had
   }
   builder_.store_.add(std::move(shape), material, depends_on_time());
 }

@@ -86,7 +86,7 @@ void build_gradient_sky(const SkyInput& in, BlockContext& block) {
 }
 
 void build_sun_sky(const SkyInput& in, BlockContext& block) {
-  constexpr double kNight = -8;
+  constexpr double kNight = -8;  // degrees; less than 1e-5 of white is left
   if (in.elevation < kNight) {
     block.warning("elevation", "the sun is so far below the horizon that the sky is black", "elevation 10");
   }

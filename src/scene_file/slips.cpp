@@ -124,8 +124,7 @@ void warn_of_buried_shapes(const SceneDraft& draft, const std::string& name, Dia
       return cover.is_there && !cover.is_glass;
     });
   };
-  const auto last = std::ranges::remove_if(emitters, std::not_fn(is_hidden)).begin();
-  emitters.erase(last, emitters.end());
+  std::erase_if(emitters, std::not_fn(is_hidden));
   if (emitters.empty()) return;
   const std::string message =
       emitters.size() == 1

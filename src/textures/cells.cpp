@@ -17,7 +17,7 @@ class Cells final : public Pattern {
  protected:
   float share(const PatternPoint& point) const override {
     const float width = point.width(), left = detail_left(width);
-    if (left <= 0) return mean();
+    if (!(left > 0)) return mean();
     const NearestPoints points = nearest_points(point.position, jitter_, map() == PatternMap::kUv);
     return mean() + left * (detail(points, width) - mean());
   }
@@ -32,7 +32,7 @@ class Cells final : public Pattern {
     }
     NearestBlock nearest{};
     if (is_any_left) nearest_points(points.position, jitter_, map() == PatternMap::kUv, nearest);
-    for (int i = 0; i < points.count; ++i) {
+    for (int i = 0; i < kBlockSize; ++i) {
       const float fine = left.at[i] > 0 ? left.at[i] * (detail(nearest.at(i), width.at[i]) - mean()) : 0.0F;
       share.at[i] = mean() + fine;
     }

@@ -91,7 +91,8 @@ class Dots final : public Pattern {
     const float y = plane.position.y - std::floor(plane.position.y) - 0.5F;
     const float share = x * x + y * y < radius_ * radius_ ? 0.0F : 1.0F;
     const float mean = 1 - static_cast<float>(kPi) * radius_ * radius_;
-    return (plane.extent.x > 1) | (plane.extent.y > 1) ? mean : share;
+    const bool is_wide = (plane.extent.x > 1) | (plane.extent.y > 1);
+    return is_wide ? mean : share;
   }
 
   float radius_;

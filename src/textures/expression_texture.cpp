@@ -142,9 +142,9 @@ Numbers<N> take(const ExpressionInstruction& i, double* r, const Numbers<N>& las
     case Step::kEqual:
       return put<N>(to, [=](int l) { return a[l] == b[l] ? 1.0 : 0.0; });
     case Step::kAnd:
-      return put<N>(to, [=](int l) { return (a[l] != 0) & (b[l] != 0) ? 1.0 : 0.0; });
+      return put<N>(to, [=](int l) { return ((a[l] != 0) & (b[l] != 0)) ? 1.0 : 0.0; });
     case Step::kOr:
-      return put<N>(to, [=](int l) { return (a[l] != 0) | (b[l] != 0) ? 1.0 : 0.0; });
+      return put<N>(to, [=](int l) { return ((a[l] != 0) | (b[l] != 0)) ? 1.0 : 0.0; });
     case Step::kNot:
       return put<N>(to, [=](int l) { return a[l] == 0 ? 1.0 : 0.0; });
     case Step::kChoose:

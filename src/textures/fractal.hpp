@@ -1,6 +1,7 @@
 // Noise for textures: single precision, and as many octaves as the footprint leaves.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "raytracer/vector3f.hpp"
@@ -19,11 +20,15 @@ inline std::uint32_t cell_hash(const glm::ivec3& cell) {
   return hash_bits(x * kAlongX + hash_bits(y * kAlongY + hash_bits(z + kAlongZ)));
 }
 
-/// The cell of a point; points beyond a billion fall into the outermost ones.
-inline glm::ivec3 cell_of(const Vector3f& p) {
-  const Vector3f cell = glm::floor(glm::clamp(p, -1e9F, 1e9F));
-  return {static_cast<int>(cell.x), static_cast<int>(cell.y), static_cast<int>(cell.z)};
+/// Of one coordinate; what is not a number counts as the least.
+inline int cell_of(float x) {
+  constexpr float kMost = 1e9F;
+  const float below = x < kMost ? x : kMost;
+  return static_cast<int>(std::floor(x > -kMost ? below : -kMost));
 }
+
+/// The cell of a point; points beyond a billion fall into the outermost ones.
+inline glm::ivec3 cell_of(const Vector3f& p) { return {cell_of(p.x), cell_of(p.y), cell_of(p.z)}; }
 
 /// Perlin's improved gradient noise (Perlin 2002) in [-1, 1]; 0 at whole coordinates.
 float lattice_noise(const Vector3f& p);

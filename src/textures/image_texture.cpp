@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/numeric.hpp"
+#include "core/lane_math.hpp"
 #include "textures/texture_block.hpp"
 
 namespace raytracer {
@@ -81,11 +81,9 @@ class ImageTexture final : public Texture {
         wrap_(placement.wrap),
         is_mean_(is_mean),
         size_(pyramid_->width(), pyramid_->height()) {
-    const double angle = placement.rotate * (kPi / 180);
-    // Whole quarter turns shall be exact.
-    const bool is_quarter = std::fmod(placement.rotate, 90) == 0;
-    const auto tidy = [&](double x) { return static_cast<float>(is_quarter ? std::round(x) : x); };
-    const float cosine = tidy(std::cos(angle)), sine = tidy(std::sin(angle));
+    const auto angle = static_cast<double>(placement.rotate);
+    const auto cosine = static_cast<float>(cosine_of_degrees(angle));
+    const auto sine = static_cast<float>(sine_of_degrees(angle));
     along_u_ = placement.scale * Vector2f(cosine, sine);
     along_v_ = placement.scale * Vector2f(-sine, cosine);
   }

@@ -74,8 +74,9 @@ bool varies_in_color_alone(const MaterialTextures& textures) {
   const auto is_other = [&](const auto& row) {
     return row.texture != &MaterialTextures::color && textures.*row.texture != nullptr;
   };
-  return std::ranges::none_of(kColors, is_other) && std::ranges::none_of(kNumbers, is_other) &&
-         textures.normal_map == nullptr && textures.bump == nullptr;
+  return textures.color != nullptr && std::ranges::none_of(kColors, is_other) &&
+         std::ranges::none_of(kNumbers, is_other) && textures.normal_map == nullptr &&
+         textures.bump == nullptr;
 }
 
 Color3f color_at(const Texture& color, const TexturePoint& point) {

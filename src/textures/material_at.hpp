@@ -11,7 +11,7 @@ namespace raytracer {
 /// The material's values, those of its textures there in place of its own, in their ranges.
 MaterialValues material_at(const Material& material, const TexturePoint& point);
 
-/// Whether textures say nothing but its colour: all else is the same everywhere.
+/// Whether textures say its colour and nothing else: all else is the same everywhere.
 bool varies_in_color_alone(const MaterialTextures& textures);
 
 /// What a texture for its colour makes of that colour.

@@ -79,11 +79,21 @@ Color3f Pattern::at(const TexturePoint& point) const {
 void Pattern::colors_at(const TextureBlock& points, ColorBlock& colors) const {
   PatternBlock own;
   set_own_points(setup_.space, points, own);
-  NumberBlock share;
+  NumberBlock share{};
   shares(own, share);
-  ColorBlock b;
-  setup_.a.colors_at(points, colors);
-  setup_.b.colors_at(points, b);
+  // Not more of both than the points alone would ask: a chain of patterns in patterns must not double at
+  // each.
+  bool is_some_a = false, is_some_b = false;
+  for (int i = 0; i < points.count; ++i) {
+    is_some_a |= !(share.at[i] >= 1);
+    is_some_b |= !(share.at[i] <= 0);
+  }
+  const bool are_textures = setup_.a.texture != nullptr && setup_.b.texture != nullptr;
+  if (is_some_a && is_some_b && are_textures) return Texture::colors_at(points, colors);
+  ColorBlock b{};
+  colors = b;
+  if (is_some_a) setup_.a.colors_at(points, colors);
+  if (is_some_b) setup_.b.colors_at(points, b);
   for (int i = 0; i < kBlockSize; ++i) {
     const float s = std::clamp(share.at[i], 0.0F, 1.0F);
     colors.set(i,

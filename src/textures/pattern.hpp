@@ -85,8 +85,9 @@ inline PlanePoint plane_point(const PatternPoint& point, PatternMap map) {
   const Vector3f p = point.position, extent = point.extent(), n = glm::abs(point.normal);
   const bool is_z = (map == PatternMap::kUv) | ((n.z >= n.x) & (n.z >= n.y));
   const bool is_x = !is_z & (n.x > n.y);
-  return {{is_x ? p.z : p.x, is_z | is_x ? p.y : p.z},
-          {is_x ? extent.z : extent.x, is_z | is_x ? extent.y : extent.z}};
+  const bool is_upright = is_z | is_x;
+  return {{is_x ? p.z : p.x, is_upright ? p.y : p.z},
+          {is_x ? extent.z : extent.x, is_upright ? extent.y : extent.z}};
 }
 
 /// A pattern's colours and where it stands.

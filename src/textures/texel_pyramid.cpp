@@ -295,7 +295,7 @@ void TexelPyramid::bilinear(const Vector2Block& uv, int count, TextureWrap wrap,
       y.set(i, pair_at(1 - wrapped(uv.y[i], kind), down));
     }
   });
-  ColorBlock upper_left, upper_right, lower_left, lower_right;
+  ColorBlock upper_left{}, upper_right{}, lower_left{}, lower_right{};
   with_texels(pixels, [&](const auto& texel_at) {
     for (int i = 0; i < count; ++i) {
       upper_left.set(i, texel_at(x.first[i], y.first[i]));

@@ -105,6 +105,13 @@ class Enclosed(unittest.TestCase):
                            light point { position 0 0.5 0  color 1 1 1 }""", 16))
         self.assertTrue(all(10 < value < 1e4 for value in lit), lit)
 
+    # In there paths split more often than they end: there are more of them than there were at first.
+    def test_paths_that_become_many(self):
+        render(PATH % (2, "") + """camera { position 0 0 5  look_at 0 0 0 }
+            sphere { radius 10  material { color 1 } }
+            sphere { material { color 1  transmission 1  ior 4  roughness 0.6 } }
+            light point { position 0 8 0 }""", "--size", "8x8")
+
     def test_bounces_are_counted(self):
         """In a closed sphere under a point light at its middle every scattering adds albedo times what came before."""
         scene = ("camera { position 0.3 0.2 0.1  look_at 1 0 0 }\nsphere { material { color 0.5 } }\n"
