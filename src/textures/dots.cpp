@@ -51,7 +51,8 @@ class Dots final : public Pattern {
   float share(const PatternPoint& point) const override {
     if (point.is_rough) return share_somewhere(point, map());
     const PlanePoint plane = plane_point(point, map());
-    double low[2], high[2], area = 1;
+    double low[2], high[2], area = 1, away = 0, reach = 0;
+    bool is_within_cell = true;
     for (int axis = 0; axis < 2; ++axis) {
       constexpr float kLeast = 1e-4F, kMost = 1e6F;
       const auto half = 0.5 * static_cast<double>(std::clamp(plane.extent[axis], kLeast, kMost));
@@ -59,7 +60,16 @@ class Dots final : public Pattern {
       low[axis] = place - std::floor(place) - half;  // from near the origin: the integrals are large
       high[axis] = low[axis] + 2 * half;
       area *= 2 * half;
+      const double aside = low[axis] + half - 0.5;  // from the middle of the cell
+      away += aside * aside;
+      reach += half * half;
+      is_within_cell &= std::abs(aside) + half <= 0.5;
     }
+    // Most boxes are small, and lie in a disk or beside it.
+    const double distance = std::sqrt(away), radius = static_cast<double>(radius_);
+    reach = std::sqrt(reach);
+    if (distance + reach < radius) return 0;
+    if (is_within_cell && distance - reach > radius) return 1;
     const double covered = integral(high[0], high[1]) - integral(low[0], high[1]) -
                            integral(high[0], low[1]) + integral(low[0], low[1]);
     return 1 - static_cast<float>(covered / area);
