@@ -346,7 +346,7 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
       group = groups_.data();
     }
   }
-  path.spread = path.spread.at(hit.t);
+  if (!cones_.empty()) path.spread = path.spread.at(hit.t);
   MattVertices& matt = group->vertices;
   const auto lane = static_cast<int>(matt.count);
   matt.add(index, surface, path.ray.direction);
@@ -566,7 +566,7 @@ bool PathTracer::scatter(Path& path, const Vertex& vertex, const Bsdf& bsdf, std
   path.from = vertex.surface.position;
   path.from_normal = vertex.light_side;
   path.ray = {vertex.offset_position(sample.direction, scene_.description().epsilon), sample.direction};
-  if (!sample.is_delta) path.spread.scatter(sample.pdf);
+  if (!sample.is_delta && !cones_.empty()) path.spread.scatter(sample.pdf);
   if (sample.is_transmission && has_inside(vertex.material)) {
     Media& media = media_of_[index];
     const float before = media.ior();
