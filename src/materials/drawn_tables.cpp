@@ -9,7 +9,6 @@ namespace raytracer {
 
 namespace {
 
-constexpr float kLeastAlpha = 1e-4F;
 constexpr int kMeanCosines = 24, kMeanTurns = 12;  // points of the quadrature over diffuse light
 
 using Quadrature = FacetQuadrature<16, 16>;
@@ -22,11 +21,11 @@ float root_mean_square(float a, float b) { return std::sqrt(0.5F * (a * a + b * 
 // The greater alpha even in its root, as roughness is; the other over it likewise.
 float wide_of(int node) {
   const float root = static_cast<float>(node) / (DrawnGrid::kWide - 1);
-  return std::max(kLeastAlpha, root * root);
+  return std::max(kLeastTabledAlpha, root * root);
 }
 float narrow_of(int node, float wide) {
   const float root = static_cast<float>(node) / (DrawnGrid::kRatios - 1);
-  return std::max(kLeastAlpha, wide * root * root);
+  return std::max(kLeastTabledAlpha, wide * root * root);
 }
 
 /// The roughness along the direction, which is what it sees.

@@ -15,8 +15,7 @@ struct TextureQueries {
   Vector2Block uv{};
   Vector3Block position{}, shading_normal{}, along_u{}, along_v{};
   alignas(64) float width[kBlockSize]{};  ///< of the footprint; of rough ones alone
-  /// Of the eye's alone: the surface's own normal, the way of the ray, and the footprint's
-  /// edges.
+  /// Of the eye's alone: the surface's own normal, the way of the ray, and the footprint's edges.
   Vector3Block normal, direction, dx{}, dy{};
 
   TextureQueries() {

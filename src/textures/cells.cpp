@@ -24,9 +24,9 @@ class Cells final : public Pattern {
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
     bool is_any_left = false;
-    NumberBlock width, left;
+    const NumberBlock width = points.widths();
+    NumberBlock left;
     for (int i = 0; i < kBlockSize; ++i) {
-      width.at[i] = PatternPoint::longer_of(points.dx.at(i), points.dy.at(i));
       left.at[i] = detail_left(width.at[i]);
       is_any_left |= left.at[i] > 0;
     }

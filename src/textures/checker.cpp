@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/with_constant.hpp"
 #include "textures/patterns.hpp"
 
 namespace raytracer {
@@ -16,7 +15,7 @@ class Checker final : public Pattern {
  protected:
   // A footprint that is long and lies askew is cut into shorter ones, whose boxes fit it better.
   float share(const PatternPoint& point) const override {
-    if (point.is_rough) return share_somewhere(point, axes());
+    if (point.is_rough) return share_somewhere(point, map());
     const bool is_dy_longer = glm::dot(point.dy, point.dy) > glm::dot(point.dx, point.dx);
     const Vector3f& along = is_dy_longer ? point.dy : point.dx;
     const Vector3f& across = is_dy_longer ? point.dx : point.dy;
@@ -38,17 +37,15 @@ class Checker final : public Pattern {
       Pattern::shares(points, share);
       return;
     }
-    with_constant<2, 3>(axes(), [&](auto axes) {
-      for (int i = 0; i < kBlockSize; ++i) share.at[i] = share_somewhere(points.at(i), axes);
-    });
+    shares_by([](const PatternPoint& point, auto map) { return share_somewhere(point, map); }, points, share);
   }
 
  private:
-  int axes() const { return map() == PatternMap::kUv ? 2 : 3; }
+  static constexpr int axes_of(PatternMap map) { return map == PatternMap::kUv ? 2 : 3; }
 
-  static float share_somewhere(const PatternPoint& point, int axes) {
+  static float share_somewhere(const PatternPoint& point, PatternMap map) {
     int cell = 0;
-    for (int axis = 0; axis < axes; ++axis) cell ^= cell_of(point.position[axis]);
+    for (int axis = 0; axis < axes_of(map); ++axis) cell ^= cell_of(point.position[axis]);
     const auto share = static_cast<float>(cell & 1);
     return glm::dot(point.dx, point.dx) > 1 ? 0.5F : share;
   }
@@ -62,7 +59,7 @@ class Checker final : public Pattern {
   // Each mean is a difference of integrals over a width; in double, as they are close to each other.
   float parity(const Vector3f& place, const Vector3f& width) const {
     double differences = 1, widths = 1;
-    for (int axis = 0; axis < axes(); ++axis) {
+    for (int axis = 0; axis < axes_of(map()); ++axis) {
       const auto x = static_cast<double>(place[axis]), across = static_cast<double>(width[axis]);
       constexpr double kPoint = 1e-5;
       if (across > kPoint) {

@@ -80,11 +80,8 @@ class Dots final : public Pattern {
       Pattern::shares(points, share);
       return;
     }
-    with_constant<PatternMap::kUv, PatternMap::kPosition>(map(), [&](auto map) {
-      NumberBlock result;
-      for (int i = 0; i < kBlockSize; ++i) result.at[i] = share_somewhere(points.at(i), map);
-      share = result;
-    });
+    shares_by([&](const PatternPoint& point, auto map) { return share_somewhere(point, map); }, points,
+              share);
   }
 
  private:

@@ -24,11 +24,9 @@ class Granite final : public Pattern {
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
     Vector3Block bent, place;
-    NumberBlock noise, width, sum{}, left;
-    for (int i = 0; i < kBlockSize; ++i) {
-      place.set(i, kBends * points.position.at(i));
-      width.at[i] = PatternPoint::longer_of(points.dx.at(i), points.dy.at(i));
-    }
+    const NumberBlock width = points.widths();
+    NumberBlock noise, sum{}, left;
+    for (int i = 0; i < kBlockSize; ++i) place.set(i, kBends * points.position.at(i));
     lattice_noise(place, noise);
     for (int i = 0; i < kBlockSize; ++i) bent.set(i, points.position.at(i) + kBend * noise.at[i]);
     NearestBlock nearest{};

@@ -25,10 +25,8 @@ class Marble final : public Pattern {
   }
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
-    NumberBlock width, noise;
-    for (int i = 0; i < kBlockSize; ++i) {
-      width.at[i] = PatternPoint::longer_of(points.dx.at(i), points.dy.at(i));
-    }
+    const NumberBlock width = points.widths();
+    NumberBlock noise;
     fractal_noise(points.position, kOctaves, kGain, width, noise);
     const float turbulence = turbulence_, sharpness = sharpness_, mean = mean_;
     for (int i = 0; i < kBlockSize; ++i) {

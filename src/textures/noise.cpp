@@ -26,10 +26,8 @@ class Noise final : public Pattern {
   }
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
-    NumberBlock width, noise;
-    for (int i = 0; i < kBlockSize; ++i) {
-      width.at[i] = early(points.is_rough) * PatternPoint::longer_of(points.dx.at(i), points.dy.at(i));
-    }
+    NumberBlock width = points.widths(), noise;
+    for (float& each : width.at) each *= early(points.is_rough);
     Vector3Block p = points.position;
     if (shape_.warp != 0) bend(width, p);
     if (shape_.sort == NoiseSort::kFbm) {

@@ -57,6 +57,11 @@ struct PatternPoint {
   }
 };
 
+/// One number for each lane.
+struct alignas(64) NumberBlock {
+  float at[kBlockSize];
+};
+
 /// Sixteen of them; lanes from `count` on hold anything that is a number.
 struct PatternBlock {
   int count;
@@ -70,11 +75,11 @@ struct PatternBlock {
     dx.set(i, point.dx);
     dy.set(i, point.dy);
   }
-};
-
-/// One number for each lane.
-struct alignas(64) NumberBlock {
-  float at[kBlockSize];
+  NumberBlock widths() const {
+    NumberBlock result;
+    for (int i = 0; i < kBlockSize; ++i) result.at[i] = PatternPoint::longer_of(dx.at(i), dy.at(i));
+    return result;
+  }
 };
 
 /// A plane's coordinates: x and y of uv; else the two axes that lie most along the surface.
@@ -110,6 +115,20 @@ class Pattern : public Texture {
   /// The very same of sixteen points; by default one by one.
   virtual void shares(const PatternBlock& points, NumberBlock& share) const;
   PatternMap map() const { return setup_.space.map; }
+  /// Calls function(map), the map being a constant.
+  template <class Function>
+  auto with_map(const Function& function) const {
+    return with_constant<PatternMap::kUv, PatternMap::kPosition>(map(), function);
+  }
+  /// shares() by a function of a point and the constant map that has no branches and calls nothing.
+  template <class ShareAt>
+  void shares_by(const ShareAt& share_at, const PatternBlock& points, NumberBlock& share) const {
+    with_map([&](auto map) {
+      NumberBlock result;  // of its own: compilers fear that `share` is one of the pattern's numbers
+      for (int i = 0; i < kBlockSize; ++i) result.at[i] = share_at(points.at(i), map);
+      share = result;
+    });
+  }
   bool has_exact_colors() const { return setup_.a.is_exact() && setup_.b.is_exact(); }
 
  private:
@@ -149,19 +168,12 @@ class LanePattern : public Pattern {
     return with_map([&](auto map) { return kind().template share_of<map>(point); });
   }
   void shares(const PatternBlock& points, NumberBlock& share) const final {
-    with_map([&](auto map) {
-      NumberBlock result;  // of its own: compilers fear that `share` is one of the pattern's numbers
-      for (int i = 0; i < kBlockSize; ++i) result.at[i] = kind().template share_of<map>(points.at(i));
-      share = result;
-    });
+    shares_by([&](const PatternPoint& point, auto map) { return kind().template share_of<map>(point); },
+              points, share);
   }
 
  private:
   const Kind& kind() const { return static_cast<const Kind&>(*this); }
-  template <class Function>
-  auto with_map(const Function& function) const {
-    return with_constant<PatternMap::kUv, PatternMap::kPosition>(map(), function);
-  }
 };
 
 }  // namespace raytracer
