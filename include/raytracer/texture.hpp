@@ -42,6 +42,15 @@ class Texture {
   /// Whether that is the average over the very parallelogram of the footprint. Else it is one over something
   /// about as large, and more looks at parts of it come closer.
   virtual bool is_exact() const { return false; }
+
+  /// Whether it matters what a point's uv is.
+  bool asks_uv() const { return asks_uv_; }
+
+ protected:
+  explicit Texture(bool asks_uv = true) : asks_uv_(asks_uv) {}
+
+ private:
+  bool asks_uv_;
 };
 
 using TexturePointer = std::shared_ptr<const Texture>;

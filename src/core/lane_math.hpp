@@ -10,6 +10,14 @@
 
 namespace raytracer {
 
+/// One of two numbers. In bits, since compilers make branches of choices between numbers, and then no
+/// vectors.
+inline float chosen(bool is_first, float first, float other) {
+  const std::uint32_t mask = 0U - static_cast<std::uint32_t>(is_first);
+  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(first) & mask) |
+                              (std::bit_cast<std::uint32_t>(other) & ~mask));
+}
+
 /// The sine of 2 pi x, within 2e-7; from 2^22 on x has no fractions that count, and it is some number of
 /// -1..1.
 inline float sine_of_turns(float x) {

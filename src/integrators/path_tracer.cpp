@@ -339,7 +339,7 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
         !cones_.empty() && (path.spread.is_rough || (depth == 0 && cones_[path.slot].is_one_of_many()));
     if (may_wait && group == nullptr) group = new_group(*textures, path.spread.is_rough);
     if (may_wait && group != nullptr) {
-      ask_color(*group, path, hit, surface);
+      ask_color(*group, path, hit);
     } else {
       const Footprint footprint = footprint_of(path, hit.t, depth);
       color = color_at(*textures->color, scene_.texture_point(path.ray, hit, footprint, surface));
@@ -362,13 +362,14 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
 }
 
 // Where the texture of its colour is asked, for the next vertex of the group.
-void PathTracer::ask_color(MattGroup& group, const Path& path, const Hit& hit, const SurfacePoint& surface) {
+void PathTracer::ask_color(MattGroup& group, const Path& path, const Hit& hit) {
   const auto lane = static_cast<int>(group.vertices.count);
-  const SurfaceDetail detail = scene_.detail_at(path.ray, hit);
-  if (group.queries.is_rough) {
-    group.queries.set_rough(lane, surface, detail, path.spread.at(hit.t).width);
+  TextureQueries& queries = group.queries;
+  if (queries.is_uv_asked) queries.set_detail(lane, scene_.detail_at(path.ray, hit));
+  if (queries.is_rough) {
+    queries.width[lane] = path.spread.at(hit.t).width;
   } else {
-    group.queries.set_seen(lane, surface, detail, path.ray, hit.t, cones_[path.slot]);
+    queries.set_seen(lane, path.ray, hit.t, cones_[path.slot]);
   }
 }
 
@@ -386,6 +387,7 @@ PathTracer::MattGroup* PathTracer::new_group(const MaterialTextures& textures, b
   MattGroup& group = groups_[group_count_++];
   group.textures = &textures;
   group.queries.is_rough = is_rough;
+  group.queries.is_uv_asked = textures.color->asks_uv();
   return &group;
 }
 
@@ -396,7 +398,7 @@ void PathTracer::shade_matt(MattGroup& group, int depth) {
   if (group.textures != nullptr) {
     group.queries.count = count;
     TextureBlock points;
-    texture_points(group.queries, points);
+    texture_points(group.queries, matt.position, matt.normal, points);
     colors_at(*group.textures->color, points, matt.color);
   }
   matt.lights.count = count;

@@ -96,7 +96,7 @@ class PathTracer {
   void move_path(std::size_t from, std::size_t to);
   void split_strong();
   void shade_hit(std::uint32_t index, int depth);
-  void ask_color(MattGroup& group, const Path& path, const Hit& hit, const SurfacePoint& surface);
+  void ask_color(MattGroup& group, const Path& path, const Hit& hit);
   MattGroup* group_of(const MaterialTextures& textures, bool is_rough);
   MattGroup* new_group(const MaterialTextures& textures, bool is_rough);
   void shade_matt(MattGroup& group, int depth);

@@ -12,43 +12,32 @@ namespace raytracer {
 struct TextureQueries {
   int count = 0;
   bool is_rough = false;
+  bool is_uv_asked = true;  ///< else there is none
   Vector2Block uv{};
-  Vector3Block position{}, shading_normal{}, along_u{}, along_v{};
+  Vector3Block along_u{}, along_v{};
   alignas(64) float width[kBlockSize]{};  ///< of the footprint; of rough ones alone
-  /// Of the eye's alone: the surface's own normal, the way of the ray, and the footprint's edges.
-  Vector3Block normal, direction, dx{}, dy{};
+  /// Of the eye's alone: the way of the ray, and the footprint's edges.
+  Vector3Block direction, dx{}, dy{};
 
   TextureQueries() {
-    for (int i = 0; i < kBlockSize; ++i) {
-      normal.set(i, {0, 0, 1});
-      direction.set(i, {0, 0, 1});
-    }
+    for (int i = 0; i < kBlockSize; ++i) direction.set(i, {0, 0, 1});
   }
 
-  void set_rough(int i, const SurfacePoint& surface, const SurfaceDetail& detail, float footprint_width) {
-    set_place(i, surface, detail);
-    width[i] = footprint_width;
-  }
-  void set_seen(int i, const SurfacePoint& surface, const SurfaceDetail& detail, const Ray3f& ray, float t,
-                const RayCone& cone) {
-    set_place(i, surface, detail);
-    normal.set(i, surface.normal);
+  void set_seen(int i, const Ray3f& ray, float t, const RayCone& cone) {
     direction.set(i, ray.direction);
     dx.set(i, cone.dx_at(t));
     dy.set(i, cone.dy_at(t));
   }
-
- private:
-  void set_place(int i, const SurfacePoint& surface, const SurfaceDetail& detail) {
+  void set_detail(int i, const SurfaceDetail& detail) {
     uv.set(i, detail.uv);
-    position.set(i, surface.position);
-    shading_normal.set(i, surface.shading_normal);
     along_u.set(i, detail.along_u);
     along_v.set(i, detail.along_v);
   }
 };
 
-/// Where the textures are asked there: as Scene::texture_point() has it, to the last bit.
-void texture_points(const TextureQueries& queries, TextureBlock& points);
+/// Where the textures are asked there, on surfaces whose two normals are one: as Scene::texture_point() has
+/// it, to the last bit.
+void texture_points(const TextureQueries& queries, const Vector3Block& position, const Vector3Block& normal,
+                    TextureBlock& points);
 
 }  // namespace raytracer

@@ -51,7 +51,7 @@ struct Edges {
   Vector2f uv_dx, uv_dy;
 };
 
-// Of a square of that width along u and v; where the surface has none along any two ways, and uv stays.
+// Of two squares of that width: one anyhow on the surface, one along u and v.
 [[gnu::always_inline]] inline Edges rough_edges(const Vector3f& along_u, const Vector3f& along_v,
                                                 const Vector3f& normal, float width) {
   Vector3f first, second;
@@ -59,8 +59,7 @@ struct Edges {
   const float uu = glm::dot(along_u, along_u), vv = glm::dot(along_v, along_v);
   const bool has_uv = (uu > 0) & (vv > 0);
   const float u = has_uv ? width / std::sqrt(uu) : 0.0F, v = has_uv ? width / std::sqrt(vv) : 0.0F;
-  const float other = has_uv ? 0.0F : width;
-  return {u * along_u + other * first, v * along_v + other * second, {u, 0}, {0, v}};
+  return {width * first, width * second, {u, 0}, {0, v}};
 }
 
 // To where the ray through ray.at(hit.t) + aside meets the surface's plane. Not farther than the footprint
@@ -110,16 +109,17 @@ TexturePoint texture_point(const Ray3f& ray, const SurfacePoint& surface, const 
 
 }  // namespace
 
-void texture_points(const TextureQueries& queries, TextureBlock& points) {
+void texture_points(const TextureQueries& queries, const Vector3Block& position, const Vector3Block& normal,
+                    TextureBlock& points) {
   points.count = queries.count;
   points.is_rough = queries.is_rough;
-  points.uv = queries.uv;
-  points.position = queries.position;
-  points.normal = queries.shading_normal;
+  points.position = position;
+  points.normal = normal;
+  if (queries.is_uv_asked) points.uv = queries.uv;
   if (queries.is_rough) {
     for (int i = 0; i < kBlockSize; ++i) {
-      const Edges edges = rough_edges(queries.along_u.at(i), queries.along_v.at(i),
-                                      queries.shading_normal.at(i), queries.width[i]);
+      const Edges edges =
+          rough_edges(queries.along_u.at(i), queries.along_v.at(i), points.normal.at(i), queries.width[i]);
       points.position_dx.set(i, edges.position_dx);
       points.position_dy.set(i, edges.position_dy);
       points.uv_dx.set(i, edges.uv_dx);
@@ -129,17 +129,18 @@ void texture_points(const TextureQueries& queries, TextureBlock& points) {
   }
   Vector3Block position_dx, position_dy;
   for (int i = 0; i < kBlockSize; ++i) {
-    const Vector3f direction = glm::normalize(queries.direction.at(i)), normal = queries.normal.at(i);
-    position_dx.set(i, onto_plane(direction, normal, queries.dx.at(i)));
-    position_dy.set(i, onto_plane(direction, normal, queries.dy.at(i)));
+    const Vector3f direction = glm::normalize(queries.direction.at(i)), upright = points.normal.at(i);
+    position_dx.set(i, onto_plane(direction, upright, queries.dx.at(i)));
+    position_dy.set(i, onto_plane(direction, upright, queries.dy.at(i)));
   }
+  points.position_dx = position_dx;
+  points.position_dy = position_dy;
+  if (!queries.is_uv_asked) return;
   for (int i = 0; i < kBlockSize; ++i) {
     const Vector3f along_u = queries.along_u.at(i), along_v = queries.along_v.at(i);
     points.uv_dx.set(i, uv_along(along_u, along_v, position_dx.at(i)));
     points.uv_dy.set(i, uv_along(along_u, along_v, position_dy.at(i)));
   }
-  points.position_dx = position_dx;
-  points.position_dy = position_dy;
 }
 
 MaterialValues Scene::textured(const Ray3f& ray, const Hit& hit, const Footprint& footprint,

@@ -16,22 +16,18 @@ class Cells final : public Pattern {
 
  protected:
   float share(const PatternPoint& point) const override {
-    const float width = point.width(), left = detail_left(width);
+    const float left = detail_left(point.detail_width());
     if (!(left > 0)) return mean();
     const NearestPoints points = nearest_points(point.position, jitter_, map() == PatternMap::kUv);
-    return mean() + left * (detail(points, width) - mean());
+    return mean() + left * (detail(points, point.width()) - mean());
   }
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
-    bool is_any_left = false;
-    const NumberBlock width = points.widths();
+    const NumberBlock width = points.widths(), detail_width = points.detail_widths(width);
     NumberBlock left;
-    for (int i = 0; i < kBlockSize; ++i) {
-      left.at[i] = detail_left(width.at[i]);
-      is_any_left |= left.at[i] > 0;
-    }
+    for (int i = 0; i < kBlockSize; ++i) left.at[i] = detail_left(detail_width.at[i]);
     NearestBlock nearest{};
-    if (is_any_left) nearest_points(points.position, jitter_, map() == PatternMap::kUv, nearest);
+    if (left.is_any()) nearest_points(points.position, jitter_, map() == PatternMap::kUv, nearest);
     for (int i = 0; i < kBlockSize; ++i) {
       const float fine = left.at[i] > 0 ? left.at[i] * (detail(nearest.at(i), width.at[i]) - mean()) : 0.0F;
       share.at[i] = mean() + fine;

@@ -277,9 +277,21 @@ void put_point(const TexturePoint& point, double* r, int lane) {
   r[N * Program::kV + lane] = static_cast<double>(point.uv.y);
 }
 
+// Or may: not every step reads all of its three places.
+bool reads_uv(const ExpressionProgram& program) {
+  const auto is_uv = [](std::uint16_t place) {
+    return place == ExpressionProgram::kU || place == ExpressionProgram::kV;
+  };
+  return is_uv(program.result) ||
+         std::ranges::any_of(program.instructions, [&](const ExpressionInstruction& i) {
+           return is_uv(i.a) || is_uv(i.b) || is_uv(i.c);
+         });
+}
+
 class ExpressionTexture final : public Texture {
  public:
-  explicit ExpressionTexture(ExpressionProgram program) : program_(std::move(program)) {}
+  explicit ExpressionTexture(ExpressionProgram program)
+      : Texture(reads_uv(program)), program_(std::move(program)) {}
 
   Color3f at(const TexturePoint& point) const override { return color_of(program_.run(point)); }
 

@@ -4,19 +4,19 @@
 #include <bit>
 #include <cmath>
 
+#include "core/lane_math.hpp"
+
 namespace raytracer {
 namespace {
 
-// In bits, since compilers make branches of choices between numbers, and then no vectors.
+float with_sign(float number, std::uint32_t sign) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(number) ^ sign << 31U);
+}
+
 float gradient(std::uint32_t hash, float x, float y, float z) {
   const std::uint32_t direction = ((hash >> 16U) * 12U) >> 16U;
-  const auto choose = [&](std::uint32_t below, float one, float other) {
-    const std::uint32_t is_below = 0U - static_cast<std::uint32_t>(direction < below);
-    return (std::bit_cast<std::uint32_t>(one) & is_below) | (std::bit_cast<std::uint32_t>(other) & ~is_below);
-  };
-  const std::uint32_t first = choose(8, x, y) ^ (direction & 1U) << 31U;
-  const std::uint32_t second = choose(4, y, z) ^ (direction & 2U) << 30U;
-  return std::bit_cast<float>(first) + std::bit_cast<float>(second);
+  return with_sign(chosen(direction < 8, x, y), direction & 1U) +
+         with_sign(chosen(direction < 4, y, z), direction >> 1U & 1U);
 }
 
 float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
@@ -55,8 +55,9 @@ float sum_of_octaves(Vector3f p, int octaves, float gain, float width, const Ter
   const glm::ivec3 cell = cell_of(p);
   const Vector3f f = glm::clamp(p - Vector3f(cell), 0.0F, 1.0F);
   const Vector3f share = {fade(f.x), fade(f.y), fade(f.z)};
+  const std::uint32_t number = cell_number(cell);
   const auto corner = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    return gradient(cell_hash(cell + glm::ivec3(x, y, z)), f.x - static_cast<float>(x),
+    return gradient(hash_bits(number + cell_number(x, y, z)), f.x - static_cast<float>(x),
                     f.y - static_cast<float>(y), f.z - static_cast<float>(z));
   };
   const auto along_x = [&](std::uint32_t y, std::uint32_t z) {
@@ -74,12 +75,10 @@ void sums_of_octaves(Vector3Block p, int octaves, float gain, NumberBlock width,
   NumberBlock sum{}, noise{}, left;
   float weights = 0, weight = 1;
   for (int octave = 0; octave < octaves; ++octave) {
-    float most = 0;
     for (int i = 0; i < kBlockSize; ++i) left.at[i] = left_of_octave(width.at[i]);
-    for (int i = 0; i < kBlockSize; ++i) most = std::max(most, left.at[i]);
-    if (most > 0) lattice_noise(p, noise);
+    if (left.is_any()) lattice_noise(p, noise);
     for (int i = 0; i < kBlockSize; ++i) {
-      sum.at[i] += weight * term(left.at[i] > 0 ? noise.at[i] : 0.0F, left.at[i]);
+      sum.at[i] += weight * term(chosen(left.at[i] > 0, noise.at[i], 0.0F), left.at[i]);
     }
     weights += weight;
     weight *= gain;
@@ -102,16 +101,11 @@ float lattice_noise(const Vector3f& p) {
   const glm::ivec3 cell = cell_of(p);
   const Vector3f f = glm::clamp(p - Vector3f(cell), 0.0F, 1.0F);
   const Vector3f share = {fade(f.x), fade(f.y), fade(f.z)};
-  std::uint32_t hash[8];
-  for (std::uint32_t i = 0; i < 8; ++i)
-    hash[i] = hash_bits(static_cast<std::uint32_t>(cell.z) + (i >> 2U) + kAlongZ);
-  for (std::uint32_t i = 0; i < 8; ++i)
-    hash[i] = hash_bits((static_cast<std::uint32_t>(cell.y) + (i >> 1U & 1U)) * kAlongY + hash[i]);
-  for (std::uint32_t i = 0; i < 8; ++i)
-    hash[i] = hash_bits((static_cast<std::uint32_t>(cell.x) + (i & 1U)) * kAlongX + hash[i]);
+  const std::uint32_t number = cell_number(cell);
   float corner[8];
   for (std::uint32_t i = 0; i < 8; ++i) {
-    corner[i] = gradient(hash[i], f.x - static_cast<float>(i & 1U), f.y - static_cast<float>(i >> 1U & 1U),
+    corner[i] = gradient(hash_bits(number + cell_number(i & 1U, i >> 1U & 1U, i >> 2U)),
+                         f.x - static_cast<float>(i & 1U), f.y - static_cast<float>(i >> 1U & 1U),
                          f.z - static_cast<float>(i >> 2U));
   }
   float along_y[4], along_z[2];

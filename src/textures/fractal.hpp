@@ -10,14 +10,15 @@
 
 namespace raytracer {
 
-/// Odd numbers far from each other.
-inline constexpr std::uint32_t kAlongX = 0x9E3779B1U, kAlongY = 0x85EBCA77U, kAlongZ = 0xC2B2AE3DU;
-
-/// 32 well-mixed bits about a cell of the lattice; the same on every machine.
-inline std::uint32_t cell_hash(const glm::ivec3& cell) {
-  const auto x = static_cast<std::uint32_t>(cell.x), y = static_cast<std::uint32_t>(cell.y),
-             z = static_cast<std::uint32_t>(cell.z);
-  return hash_bits(x * kAlongX + hash_bits(y * kAlongY + hash_bits(z + kAlongZ)));
+/// A number for each cell of the lattice, to be mixed by hash_bits(): of the sum of two cells the sum of
+/// both. The factors are the powers of the inverse of the root of x^4 = x + 1 (Roberts 2018); cells of one
+/// number are at least 1325 cells apart.
+constexpr std::uint32_t cell_number(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  return x * 0xD1B54A33U + y * 0xABC98389U + z * 0x8CB92BA7U;
+}
+constexpr std::uint32_t cell_number(const glm::ivec3& cell) {
+  return cell_number(static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y),
+                     static_cast<std::uint32_t>(cell.z));
 }
 
 /// Of one coordinate; what is not a number counts as the least.

@@ -1,3 +1,4 @@
+#include "core/lane_math.hpp"
 #include "textures/fractal.hpp"
 #include "textures/patterns.hpp"
 #include "textures/scattered.hpp"
@@ -12,7 +13,7 @@ class Granite final : public Pattern {
  protected:
   // Grains of three sizes, bent at their edges, each of a mixture of its own.
   float share(const PatternPoint& point) const override {
-    const float width = point.width();
+    const float width = point.detail_width();
     const Vector3f bent = point.position + kBend * lattice_noise(kBends * point.position);
     float sum = 0;
     for (const float size : kSizes) {
@@ -24,22 +25,20 @@ class Granite final : public Pattern {
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
     Vector3Block bent, place;
-    const NumberBlock width = points.widths();
+    const NumberBlock width = points.detail_widths();
     NumberBlock noise, sum{}, left;
     for (int i = 0; i < kBlockSize; ++i) place.set(i, kBends * points.position.at(i));
     lattice_noise(place, noise);
     for (int i = 0; i < kBlockSize; ++i) bent.set(i, points.position.at(i) + kBend * noise.at[i]);
     NearestBlock nearest{};
     for (const float size : kSizes) {
-      bool is_any_left = false;
       for (int i = 0; i < kBlockSize; ++i) {
         left.at[i] = detail_left(size * width.at[i]);
-        is_any_left |= left.at[i] > 0;
         place.set(i, size * bent.at(i));
       }
-      if (is_any_left) nearest_points(place, 1, false, nearest);
+      if (left.is_any()) nearest_points(place, 1, false, nearest);
       for (int i = 0; i < kBlockSize; ++i) {
-        sum.at[i] += faded(left.at[i] > 0 ? nearest.number.at[i] : 0.5F, left.at[i]);
+        sum.at[i] += faded(chosen(left.at[i] > 0, nearest.number.at[i], 0.5F), left.at[i]);
       }
     }
     for (int i = 0; i < kBlockSize; ++i) share.at[i] = contrasted(sum.at[i]);

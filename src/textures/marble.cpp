@@ -20,14 +20,14 @@ class Marble final : public Pattern {
 
  protected:
   float share(const PatternPoint& point) const override {
-    const float width = point.width(), noise = fractal_noise(point.position, kOctaves, kGain, width);
-    return vein(point.position.x + turbulence_ * noise, width, sharpness_, mean_);
+    const float noise = fractal_noise(point.position, kOctaves, kGain, point.detail_width());
+    return vein(point.position.x + turbulence_ * noise, point.width(), sharpness_, mean_);
   }
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
     const NumberBlock width = points.widths();
     NumberBlock noise;
-    fractal_noise(points.position, kOctaves, kGain, width, noise);
+    fractal_noise(points.position, kOctaves, kGain, points.detail_widths(width), noise);
     const float turbulence = turbulence_, sharpness = sharpness_, mean = mean_;
     for (int i = 0; i < kBlockSize; ++i) {
       const float bent = points.position.x[i] + turbulence * noise.at[i];

@@ -10,7 +10,7 @@ class Noise final : public Pattern {
 
  protected:
   float share(const PatternPoint& point) const override {
-    const float width = early(point.is_rough) * point.width();
+    const float width = point.detail_width();
     Vector3f p = point.position;
     if (shape_.warp != 0) {
       Vector3f bend;
@@ -26,8 +26,8 @@ class Noise final : public Pattern {
   }
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
-    NumberBlock width = points.widths(), noise;
-    for (float& each : width.at) each *= early(points.is_rough);
+    const NumberBlock width = points.detail_widths();
+    NumberBlock noise;
     Vector3Block p = points.position;
     if (shape_.warp != 0) bend(width, p);
     if (shape_.sort == NoiseSort::kFbm) {
@@ -42,9 +42,6 @@ class Noise final : public Pattern {
  private:
   // Three numbers that have nothing to do with each other, from three places far apart.
   static constexpr Vector3f kAside[] = {{31.7F, 0, 0}, {0, 47.3F, 0}, {0, 0, 59.9F}};
-
-  // Of rough points: fine octaves cost time, and nobody sees them.
-  static float early(bool is_rough) { return is_rough ? 2.0F : 1.0F; }
 
   void bend(const NumberBlock& width, Vector3Block& p) const {
     NumberBlock by[3];

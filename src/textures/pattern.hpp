@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -22,6 +23,7 @@ struct TextureInput {
   Color3f at(const TexturePoint& point) const { return texture ? texture->at(point) : color; }
   void colors_at(const TextureBlock& points, ColorBlock& colors) const;
   bool is_exact() const { return texture == nullptr || texture->is_exact(); }
+  bool asks_uv() const { return texture != nullptr && texture->asks_uv(); }
 };
 
 /// What a pattern's coordinates follow.
@@ -51,6 +53,10 @@ struct PatternPoint {
   }
   /// The longer edge of the footprint.
   float width() const { return longer_of(dx, dy); }
+  /// Likewise for what fades out as it gets too fine. Of rough points that is early: fine detail costs time,
+  /// and nobody sees it.
+  float detail_width() const { return early(is_rough) * width(); }
+  static constexpr float early(bool is_rough) { return is_rough ? 2.0F : 1.0F; }
   static float longer_of(const Vector3f& dx, const Vector3f& dy) {
     const float x = glm::dot(dx, dx), y = glm::dot(dy, dy);
     return std::sqrt(x < y ? y : x);
@@ -60,6 +66,13 @@ struct PatternPoint {
 /// One number for each lane.
 struct alignas(64) NumberBlock {
   float at[kBlockSize];
+
+  /// Whether one of them is not 0, there being no -0; in bits, as compilers make vectors of those.
+  bool is_any() const {
+    std::uint32_t bits = 0;
+    for (const float each : at) bits |= std::bit_cast<std::uint32_t>(each);
+    return bits != 0;
+  }
 };
 
 /// Sixteen of them; lanes from `count` on hold anything that is a number.
@@ -79,6 +92,11 @@ struct PatternBlock {
     NumberBlock result;
     for (int i = 0; i < kBlockSize; ++i) result.at[i] = PatternPoint::longer_of(dx.at(i), dy.at(i));
     return result;
+  }
+  NumberBlock detail_widths() const { return detail_widths(widths()); }
+  NumberBlock detail_widths(NumberBlock all_widths) const {
+    for (float& each : all_widths.at) each *= PatternPoint::early(is_rough);
+    return all_widths;
   }
 };
 
@@ -104,7 +122,9 @@ struct PatternSetup {
 /// A texture that mixes two others by a share that each kind computes.
 class Pattern : public Texture {
  public:
-  explicit Pattern(PatternSetup setup) : setup_(std::move(setup)) {}
+  explicit Pattern(PatternSetup setup)
+      : Texture(setup.space.map == PatternMap::kUv || setup.a.asks_uv() || setup.b.asks_uv()),
+        setup_(std::move(setup)) {}
 
   Color3f at(const TexturePoint& point) const final;
   void colors_at(const TextureBlock& points, ColorBlock& colors) const final;

@@ -9,7 +9,10 @@ namespace {
 class Ramp final : public Texture {
  public:
   Ramp(TextureInput value, std::vector<RampStop> stops)
-      : value_(std::move(value)), stops_(std::move(stops)) {}
+      : Texture(value.asks_uv() ||
+                std::ranges::any_of(stops, [](const RampStop& stop) { return stop.color.asks_uv(); })),
+        value_(std::move(value)),
+        stops_(std::move(stops)) {}
 
   Color3f at(const TexturePoint& point) const override {
     return color_of(number_of(value_.at(point)), point);

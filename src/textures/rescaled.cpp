@@ -7,7 +7,9 @@ namespace {
 class Rescaled final : public Texture {
  public:
   Rescaled(TextureInput texture, Rescaling rescaling)
-      : texture_(std::move(texture)), rescaling_(std::move(rescaling)) {}
+      : Texture(texture.asks_uv() || rescaling.factor.asks_uv()),
+        texture_(std::move(texture)),
+        rescaling_(std::move(rescaling)) {}
 
   Color3f at(const TexturePoint& point) const override {
     return rescaled(texture_.at(point), rescaling_.factor.at(point));

@@ -1,5 +1,7 @@
 #include "textures/scattered.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "sampling/sobol.hpp"
@@ -8,28 +10,35 @@
 namespace raytracer {
 namespace {
 
-/// What has been found so far, distances squared.
+/// What has been found so far: distances squared as bits, whose order is theirs and which compilers compare
+/// without a thought of what is not a number.
 struct Found {
-  float nearest = kInfinity, second = kInfinity;
+  std::uint32_t nearest = std::bit_cast<std::uint32_t>(kInfinity), second = nearest;
   std::uint32_t hash = 0;  // of the cell of the nearest
 };
 
-// Looks at the point of one more cell, `aside` from the one that the place is in, at `within` there. Without
+/// The coordinates of a cell's point follow from ten bits of its hash each.
+constexpr float kBitsOfPoint = 1024;
+
+// From a place in a cell to the least coordinates that the cell's own point may have.
+Vector3f to_first_corner(const Vector3f& within, float jitter) {
+  return 0.5F + jitter * (0.5F / kBitsOfPoint - 0.5F) - within;
+}
+
+// Looks at the point of one more cell, `aside` from the one that the place is in, of that hash. Without
 // branches: it is done to blocks of places.
 template <bool kIsFlat>
-[[gnu::always_inline]] inline Found with_cell(const Found& found, const glm::ivec3& cell,
-                                              const glm::ivec3& aside, const Vector3f& within, float jitter) {
-  const std::uint32_t hash = cell_hash(cell + aside);
-  const auto part = [&](unsigned shift) {
-    return static_cast<float>(static_cast<std::int32_t>((hash >> shift) & 0x3FFU)) * (1.0F / 1024) - 0.5F +
-           0.5F / 1024;
+[[gnu::always_inline]] inline Found with_cell(const Found& found, std::uint32_t hash, const Vector3f& aside,
+                                              const Vector3f& corner, float step) {
+  const auto part = [&](std::uint32_t bits) {
+    return step * static_cast<float>(static_cast<std::int32_t>(bits));
   };
-  const Vector3f offset = Vector3f(aside) + 0.5F + jitter * Vector3f(part(0), part(10), part(20)) - within;
-  const float flat = offset.x * offset.x + offset.y * offset.y;
-  const float distance = kIsFlat ? flat : flat + offset.z * offset.z;
+  const float x = aside.x + corner.x + part(hash & 0x3FFU);
+  const float y = aside.y + corner.y + part(hash >> 10U & 0x3FFU);
+  const float z = kIsFlat ? 0.0F : aside.z + corner.z + part(hash >> 22U);
+  const auto distance = std::bit_cast<std::uint32_t>(x * x + y * y + z * z);
   const bool is_nearer = distance < found.nearest;
-  const float other = is_nearer ? found.nearest : distance;
-  return {is_nearer ? distance : found.nearest, other < found.second ? other : found.second,
+  return {std::min(distance, found.nearest), std::min(found.second, std::max(distance, found.nearest)),
           is_nearer ? hash : found.hash};
 }
 
@@ -45,35 +54,34 @@ void for_neighbours(const Function& function) {
 }
 
 NearestPoints finished(const Found& found) {
-  return {std::sqrt(found.nearest), std::sqrt(found.second), unit_float(hash_bits(found.hash))};
+  return {std::sqrt(std::bit_cast<float>(found.nearest)), std::sqrt(std::bit_cast<float>(found.second)),
+          unit_float(hash_bits(found.hash))};
 }
 
 template <bool kIsFlat>
 void find_nearest(const Vector3Block& p, float jitter, NearestBlock& result) {
-  Vector3Block within;
-  alignas(64) std::int32_t x[kBlockSize], y[kBlockSize], z[kBlockSize];
-  alignas(64) std::uint32_t hash[kBlockSize];
-  NumberBlock nearest, second;
+  Vector3Block corner;
+  alignas(64) std::uint32_t number[kBlockSize], nearest[kBlockSize], second[kBlockSize], hash[kBlockSize];
   for (int lane = 0; lane < kBlockSize; ++lane) {
     const glm::ivec3 cell = cell_of(p.at(lane));
-    within.set(lane, p.at(lane) - Vector3f(cell));
-    x[lane] = cell.x;
-    y[lane] = cell.y;
-    z[lane] = cell.z;
-    nearest.at[lane] = second.at[lane] = kInfinity;
+    corner.set(lane, to_first_corner(p.at(lane) - Vector3f(cell), jitter));
+    number[lane] = cell_number(cell);
+    nearest[lane] = second[lane] = Found{}.nearest;
     hash[lane] = 0;
   }
+  const float step = jitter / kBitsOfPoint;
   for_neighbours<kIsFlat>([&](const glm::ivec3& aside) {
     for (int lane = 0; lane < kBlockSize; ++lane) {
-      const Found found = with_cell<kIsFlat>({nearest.at[lane], second.at[lane], hash[lane]},
-                                             {x[lane], y[lane], z[lane]}, aside, within.at(lane), jitter);
-      nearest.at[lane] = found.nearest;
-      second.at[lane] = found.second;
+      const Found found = with_cell<kIsFlat>({nearest[lane], second[lane], hash[lane]},
+                                             hash_bits(number[lane] + cell_number(aside)), Vector3f(aside),
+                                             corner.at(lane), step);
+      nearest[lane] = found.nearest;
+      second[lane] = found.second;
       hash[lane] = found.hash;
     }
   });
   for (int lane = 0; lane < kBlockSize; ++lane) {
-    const NearestPoints points = finished({nearest.at[lane], second.at[lane], hash[lane]});
+    const NearestPoints points = finished({nearest[lane], second[lane], hash[lane]});
     result.nearest.at[lane] = points.nearest;
     result.second.at[lane] = points.second;
     result.number.at[lane] = points.number;
@@ -84,11 +92,14 @@ void find_nearest(const Vector3Block& p, float jitter, NearestBlock& result) {
 
 NearestPoints nearest_points(const Vector3f& p, float jitter, bool is_flat) {
   const glm::ivec3 cell = cell_of(p);
-  const Vector3f within = p - Vector3f(cell);
+  const Vector3f corner = to_first_corner(p - Vector3f(cell), jitter);
+  const float step = jitter / kBitsOfPoint;
   return with_constant<true, false>(is_flat, [&](auto flat) {
     Found found;
-    for_neighbours<flat>(
-        [&](const glm::ivec3& aside) { found = with_cell<flat>(found, cell, aside, within, jitter); });
+    for_neighbours<flat>([&](const glm::ivec3& aside) {
+      const std::uint32_t hash = hash_bits(cell_number(cell) + cell_number(aside));
+      found = with_cell<flat>(found, hash, Vector3f(aside), corner, step);
+    });
     return finished(found);
   });
 }

@@ -247,6 +247,7 @@ TEST_CASE("textures are asked where each hit alone would ask them", "[textures]"
     TextureQueries queries;
     queries.is_rough = round % 2 == 0;
     std::vector<TexturePoint> alone;
+    Vector3Block position{}, normal{};
     while (queries.count < 16) {
       const Vector3f origin = random.vector(4) + Vector3f(0, 3, 0);
       const Ray3f ray{origin, glm::normalize(Vector3f(random.vector(2)) - origin)};
@@ -255,20 +256,24 @@ TEST_CASE("textures are asked where each hit alone would ask them", "[textures]"
       const SurfacePoint surface = scene.surface_at(ray, hit);
       const RayCone cone = some_cone(random);
       if (!queries.is_rough && !cone.is_one_of_many()) continue;
+      if (surface.normal != surface.shading_normal) continue;
+      position.set(queries.count, surface.position);
+      normal.set(queries.count, surface.normal);
+      queries.set_detail(queries.count, scene.detail_at(ray, hit));
       if (queries.is_rough) {
         Footprint footprint;
         footprint.is_rough = true;
         footprint.width = random.in(1e-3F, 1);
-        queries.set_rough(queries.count, surface, scene.detail_at(ray, hit), footprint.width);
+        queries.width[queries.count] = footprint.width;
         alone.push_back(scene.texture_point(ray, hit, footprint, surface));
       } else {
-        queries.set_seen(queries.count, surface, scene.detail_at(ray, hit), ray, hit.t, cone);
+        queries.set_seen(queries.count, ray, hit.t, cone);
         alone.push_back(scene.texture_point(ray, hit, cone.footprint_at(hit.t), surface));
       }
       ++queries.count;
     }
     TextureBlock block;
-    texture_points(queries, block);
+    texture_points(queries, position, normal, block);
     REQUIRE(block.is_rough == queries.is_rough);
     for (int i = 0; i < queries.count; ++i) {
       const TexturePoint together = block.at(i), one = alone[static_cast<std::size_t>(i)];
