@@ -141,6 +141,11 @@ class Scene {
     if (hit.instance != kNoInstance) return instance_surface_at(ray, hit);
     return description_.shapes[hit.shape]->surface_at(ray, hit);
   }
+  /// Has the memory fetched that surface_at() will read, in time for somebody who asks a little later: of a
+  /// big mesh next to nothing is in the processor's cache.
+  void prefetch(const Hit& hit) const;
+  /// Whether there is anything to fetch.
+  bool has_meshes() const { return has_meshes_; }
   /// Likewise for lanes that have met the same shape, of the same instance.
   void surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,
                    SurfaceBlock& surfaces) const;
@@ -175,7 +180,7 @@ class Scene {
 
   SceneDescription description_;
   std::unique_ptr<Accelerator> accelerator_;
-  bool has_vertex_colors_ = false;
+  bool has_meshes_ = false, has_vertex_colors_ = false;
   mutable std::once_flag lights_gathered_;
   mutable std::unique_ptr<const LightSet> lights_;
   mutable std::once_flag shining_gathered_;

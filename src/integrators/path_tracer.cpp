@@ -16,7 +16,7 @@ namespace {
 
 // The pairs of PathPoints that each bounce takes, after those of the camera: for a light, a lobe and a
 // light's number, a direction, the roulette.
-constexpr std::uint32_t kCameraPairs = 2, kPairsPerBounce = 4;
+constexpr std::uint32_t kCameraPairs = 2, kPairsPerBounce = 4, kRoulettePair = 3;
 
 // Most of the noise of matt rooms is in where the first two directions and the light that is looked at after
 // the first of them meet: the first direction is spread together with both of the others, which leaves a
@@ -203,6 +203,7 @@ void PathTracer::trace(std::span<const Ray3f> rays, std::span<const RayCone> con
   if (has_media_) media_of_.assign(rays.size(), media_);
   for (int depth = 0; !paths_.empty(); ++depth) {
     find_hits(depth);
+    drop_missed(depth);
     draw_points(depth);
     shade(depth);
   }
@@ -219,12 +220,33 @@ void PathTracer::draw_points(int depth) {
                                                          &chance_points_};
   for (std::uint32_t i = 0; i < kPairsPerBounce; ++i) {
     pairs[i]->resize(paths_.size());
+    if (i == kRoulettePair && depth < kFirstRoulette) continue;
     if (depth == 1 && kAreCompanions[i]) {
       points_.fill_companion(kFirstDirection, i, numbers_, *pairs[i]);
     } else {
       points_.fill(first + i, numbers_, *pairs[i]);
     }
   }
+}
+
+// Rays that have been scattered are asked for together with others that go into the same eighth of space;
+// within it they keep their order, by which they are neighbours.
+void PathTracer::order_rays(int depth) {
+  const auto count = static_cast<std::uint32_t>(paths_.size());
+  order_.resize(count);
+  if (depth == 0) {
+    for (std::uint32_t i = 0; i < count; ++i) order_[i] = i;
+    return;
+  }
+  const auto octant = [&](std::uint32_t i) {
+    const Vector3f& way = paths_[i].ray.direction;
+    return static_cast<std::size_t>(way.x < 0) + 2 * static_cast<std::size_t>(way.y < 0) +
+           4 * static_cast<std::size_t>(way.z < 0);
+  };
+  std::uint32_t ends[9]{};
+  for (std::uint32_t i = 0; i < count; ++i) ++ends[octant(i) + 1];
+  for (int k = 0; k < 8; ++k) ends[k + 1] += ends[k];
+  for (std::uint32_t i = 0; i < count; ++i) order_[ends[octant(i)]++] = i;
 }
 
 // In packets throughout: the eye's rays go the same way, and even scattered ones gain a little.
@@ -234,19 +256,40 @@ void PathTracer::find_hits(int depth) {
   ray_count_ += count;
   hits_.resize(count);
   is_hit_.resize(count);
+  order_rays(depth);
   RayBlock rays{};
   HitBlock hits;
   for (std::size_t first = 0; first < count; first += kBlockSize) {
     const std::size_t size = std::min<std::size_t>(kBlockSize, count - first);
-    for (std::size_t i = 0; i < size; ++i) rays.set(static_cast<int>(i), paths_[first + i].ray);
+    const std::uint32_t* const asked = order_.data() + first;
+    for (std::size_t i = 0; i < size; ++i) rays.set(static_cast<int>(i), paths_[asked[i]].ray);
     const BlockMask found = scene_.is_hit(rays, BlockMask::first(size), hits, coherence);
     for (std::size_t i = 0; i < size; ++i) {
-      is_hit_[first + i] = found.has(static_cast<int>(i)) ? 1 : 0;
-      hits_[first + i] = hits.at(static_cast<int>(i));
+      is_hit_[asked[i]] = found.has(static_cast<int>(i)) ? 1 : 0;
+      hits_[asked[i]] = hits.at(static_cast<int>(i));
     }
   }
   if (!has_cutouts_ && !(has_hidden_lights_ && depth == 0)) return;
   for (std::uint32_t i = 0; i < count; ++i) pass_through(paths_[i], i, depth);
+}
+
+// Those that hit nothing see the sky, and are done.
+void PathTracer::drop_missed(int depth) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    if (is_hit_[i] == 0) {
+      add_sky(paths_[i], depth);
+      continue;
+    }
+    if (kept != i) {
+      move_path(i, kept);
+      hits_[kept] = hits_[i];
+    }
+    ++kept;
+  }
+  goes_on_.resize(kept);
+  paths_.resize(kept);
+  numbers_.resize(kept);
 }
 
 // Goes on along the ray behind whatever is not there for this path.
@@ -275,12 +318,10 @@ bool PathTracer::is_passed(const Path& path, std::uint32_t index, int depth, std
 
 void PathTracer::shade(int depth) {
   waiting_.count = 0;
+  constexpr std::size_t kAhead = 4;
   for (std::uint32_t i = 0; i < paths_.size(); ++i) {
-    if (is_hit_[i] == 0) {
-      add_sky(paths_[i], depth);
-    } else {
-      shade_hit(i, depth);
-    }
+    if (scene_.has_meshes() && i + kAhead < paths_.size()) scene_.prefetch(hits_[i + kAhead]);
+    shade_hit(i, depth);
   }
   for (std::size_t i = 0; i < group_count_; ++i) {
     if (groups_[i].vertices.count > 0) shade_matt(groups_[i], depth);
@@ -289,7 +330,7 @@ void PathTracer::shade(int depth) {
   add_unoccluded();
   std::size_t kept = 0;
   for (std::uint32_t i = 0; i < paths_.size(); ++i) {
-    if (is_hit_[i] == 0) continue;
+    if (goes_on_[i] == 0) continue;
     if (kept != i) move_path(i, kept);
     ++kept;
   }
@@ -330,7 +371,7 @@ void PathTracer::shade_hit(std::uint32_t index, int depth) {
                         surface.shading_normal == surface.normal &&
                         (!has_media_ || media_of_[index].innermost() == nullptr);
   if (!is_plain) {
-    is_hit_[index] = shade_any(path, material, surface, index, depth) ? 1 : 0;
+    goes_on_[index] = shade_any(path, material, surface, index, depth) ? 1 : 0;
     return;
   }
   Color3f color = material.color;
@@ -426,7 +467,7 @@ void PathTracer::shade_matt(MattGroup& group, int depth) {
     if (!cones_.empty() && path.pdf > 0) path.spread.scatter(path.pdf);
     const float survival = path.pdf > 0 ? roulette(path, depth, chance_points_[index].x) : 0.0F;
     path.throughput *= survival;
-    is_hit_[index] = survival > 0 ? 1 : 0;
+    goes_on_[index] = survival > 0 ? 1 : 0;
   }
   matt.count = 0;
 }

@@ -89,7 +89,9 @@ class PathTracer {
   struct Vertex;
 
   Footprint footprint_of(const Path& path, float distance, int depth) const;
+  void order_rays(int depth);
   void find_hits(int depth);
+  void drop_missed(int depth);
   void pass_through(Path& path, std::uint32_t index, int depth);
   bool is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const;
   void shade(int depth);
@@ -127,7 +129,8 @@ class PathTracer {
   std::vector<PathNumber> numbers_;
   std::vector<Media> media_of_;  // likewise; empty where nothing is see-through
   std::vector<Hit> hits_;
-  std::vector<std::uint8_t> is_hit_;  // once it is shaded: whether its path goes on
+  std::vector<std::uint8_t> is_hit_, goes_on_;
+  std::vector<std::uint32_t> order_;  // of the rays as they are asked for
   std::vector<Vector2f> light_points_, choice_points_, scatter_points_, chance_points_;
   std::span<Color3f> colors_;
   std::span<const RayCone> cones_;  // empty where there are no textures

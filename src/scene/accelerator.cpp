@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -193,15 +194,11 @@ struct Accelerator::Tree {
                : instances[found.instance_id - first_instance()]->finite;
   }
 
-  // Of a big mesh next to nothing is in the processor's cache that the surfaces will be made of: first the
-  // numbers of the corners, of all lanes at once, then the corners.
+  // Of a big mesh next to nothing is in the processor's cache that the surfaces will be made of. That is the
+  // first half of it, for Scene::prefetch().
   [[gnu::always_inline]] void prefetch_numbers(const Found& found) const {
     if (found.geometry != kAskedShapes)
       shapes_of(found).meshes[found.geometry - 1]->prefetch_numbers(found.primitive);
-  }
-  [[gnu::always_inline]] void prefetch(const Found& found) const {
-    if (found.geometry != kAskedShapes)
-      shapes_of(found).meshes[found.geometry - 1]->prefetch(found.primitive);
   }
 
   // The nearer of what the tree found and of `hit`, which the endless shapes have found if `has_hit`.
@@ -254,6 +251,12 @@ Accelerator::Accelerator(std::span<const std::unique_ptr<Shape>> shapes,
 
 Accelerator::~Accelerator() = default;
 
+bool Accelerator::has_meshes() const {
+  return !tree_->finite.meshes.empty() || std::ranges::any_of(tree_->instances, [](const Tree* below) {
+    return !below->finite.meshes.empty();
+  });
+}
+
 bool Accelerator::is_hit(const Ray3f& ray, Hit& hit) const {
   Ray3f rest = ray;
   const bool hits_endless = tree_->is_endless_hit(rest, hit);
@@ -299,7 +302,6 @@ BlockMask Accelerator::is_hit(const RayBlock& rays, const BlockMask& asked, HitB
   for (int i = 0; i < kBlockSize; ++i) {
     if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     const Tree::Found lane = found_in(i);
-    tree_->prefetch(lane);
     Hit nearest = found.has(i) ? hits.at(i) : Hit{};
     tree_->choose(lane, found.has(i), nearest);
     hits.set(i, nearest);

@@ -29,6 +29,9 @@ class Accelerator {
   BlockMask is_hit(const RayBlock& rays, const BlockMask& asked, HitBlock& hits, Coherence coherence) const;
   BlockMask is_occluded(const RayBlock& rays, const BlockMask& asked, Coherence coherence) const;
 
+  /// Whether there are triangle meshes among them.
+  bool has_meshes() const;
+
  private:
   struct Tree;
   std::unique_ptr<Tree> tree_;

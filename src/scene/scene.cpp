@@ -33,6 +33,7 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
                                            [](const auto& shared) { return shared->has_vertex_colors(); });
   accelerator_ =
       std::make_unique<Accelerator>(description_.shapes, description_.shared, description_.instances);
+  has_meshes_ = accelerator_->has_meshes();
 }
 
 Scene::~Scene() = default;
@@ -71,6 +72,14 @@ std::uint32_t Scene::is_hit(std::span<const Ray3f> rays, std::span<Hit> hits, Co
 
 std::uint32_t Scene::is_occluded(std::span<const Ray3f> rays, Coherence coherence) const {
   return is_occluded(block_of(rays), BlockMask::first(rays.size()), coherence).bits();
+}
+
+void Scene::prefetch(const Hit& hit) const {
+  const Shape& shape =
+      hit.instance == kNoInstance
+          ? *description_.shapes[hit.shape]
+          : description_.shared[description_.instances[hit.instance].shared]->shape(hit.shape);
+  if (const TriangleMesh* mesh = shape.as_mesh()) mesh->prefetch(hit.primitive);
 }
 
 void Scene::surfaces_at(const RayBlock& rays, const HitBlock& hits, const BlockMask& asked,

@@ -221,6 +221,9 @@ void TriangleMesh::surfaces_at(const RayBlock& rays, const HitBlock& hits, const
   CornerBlock positions, normals;
   const bool is_smooth = !data_->normals.empty();
   for (int i = 0; i < kBlockSize; ++i) {
+    if (asked.has(i)) prefetch(hits.primitive[i]);
+  }
+  for (int i = 0; i < kBlockSize; ++i) {
     if (!asked.has(i)) continue;
     positions.set(i, data_->positions, triangle(hits.primitive[i]));
     if (is_smooth) normals.set(i, data_->normals, triangle(hits.primitive[i]));
