@@ -21,23 +21,31 @@ class Marble final : public Pattern {
  protected:
   float share(const PatternPoint& point) const override {
     const float noise = fractal_noise(point.position, kOctaves, kGain, point.detail_width());
-    return vein(point.position.x + turbulence_ * noise, point.width(), sharpness_, mean_);
+    return vein(point.position.x + turbulence_ * noise, vein_width(point.dx, point.dy, turbulence_),
+                sharpness_, mean_);
   }
 
   void shares(const PatternBlock& points, NumberBlock& share) const override {
-    const NumberBlock width = points.widths();
     NumberBlock noise;
-    fractal_noise(points.position, kOctaves, kGain, points.detail_widths(width), noise);
+    fractal_noise(points.position, kOctaves, kGain, points.detail_widths(), noise);
     const float turbulence = turbulence_, sharpness = sharpness_, mean = mean_;
     for (int i = 0; i < kBlockSize; ++i) {
       const float bent = points.position.x[i] + turbulence * noise.at[i];
-      share.at[i] = vein(bent, width.at[i], sharpness, mean);
+      const float across = vein_width(points.dx.at(i), points.dy.at(i), turbulence);
+      share.at[i] = vein(bent, across, sharpness, mean);
     }
   }
 
  private:
   static constexpr int kOctaves = 6;
   static constexpr float kGain = 0.55F;
+
+  // Of the footprint across the veins, and of the bends that are lost in it.
+  [[gnu::always_inline]] static float vein_width(const Vector3f& dx, const Vector3f& dy, float turbulence) {
+    constexpr float kVariance = 0.05F;  // of the noise
+    const float lost = turbulence * (1 - detail_left(PatternPoint::longer_of(dx, dy)));
+    return std::sqrt(dx.x * dx.x + dy.x * dy.x + 12 * kVariance * lost * lost);
+  }
 
   static float vein(float x, float width, float sharpness, float mean) {
     const float wave = 0.5F + 0.5F * sine_of_turns(x);
