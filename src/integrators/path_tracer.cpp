@@ -275,19 +275,21 @@ void PathTracer::find_hits(int depth) {
 
 // Those that hit nothing see the sky, and are done.
 void PathTracer::drop_missed(int depth) {
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    if (is_hit_[i] == 0) add_sky(paths_[i], depth);
+  }
+  keep_paths(is_hit_);
+  goes_on_.resize(paths_.size());
+}
+
+// Closes the gaps that the others leave.
+void PathTracer::keep_paths(const std::vector<std::uint8_t>& stays) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < paths_.size(); ++i) {
-    if (is_hit_[i] == 0) {
-      add_sky(paths_[i], depth);
-      continue;
-    }
-    if (kept != i) {
-      move_path(i, kept);
-      hits_[kept] = hits_[i];
-    }
+    if (stays[i] == 0) continue;
+    if (kept != i) move_path(i, kept);
     ++kept;
   }
-  goes_on_.resize(kept);
   paths_.resize(kept);
   numbers_.resize(kept);
 }
@@ -328,14 +330,7 @@ void PathTracer::shade(int depth) {
   }
   group_count_ = 1;
   add_unoccluded();
-  std::size_t kept = 0;
-  for (std::uint32_t i = 0; i < paths_.size(); ++i) {
-    if (goes_on_[i] == 0) continue;
-    if (kept != i) move_path(i, kept);
-    ++kept;
-  }
-  paths_.resize(kept);
-  numbers_.resize(kept);
+  keep_paths(goes_on_);
   if (depth < kLong) split_strong();
 }
 
@@ -475,6 +470,7 @@ void PathTracer::shade_matt(MattGroup& group, int depth) {
 void PathTracer::move_path(std::size_t from, std::size_t to) {
   paths_[to] = paths_[from];
   numbers_[to] = numbers_[from];
+  hits_[to] = hits_[from];
   if (has_media_) media_of_[to] = media_of_[from];
 }
 

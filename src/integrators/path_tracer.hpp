@@ -92,6 +92,7 @@ class PathTracer {
   void order_rays(int depth);
   void find_hits(int depth);
   void drop_missed(int depth);
+  void keep_paths(const std::vector<std::uint8_t>& stays);
   void pass_through(Path& path, std::uint32_t index, int depth);
   bool is_passed(const Path& path, std::uint32_t index, int depth, std::uint32_t passes) const;
   void shade(int depth);

@@ -55,4 +55,12 @@ void turbulence_noise(const Vector3Block& p, int octaves, float gain, const Numb
 /// The mean of |lattice_noise|.
 inline constexpr float kMeanAbsoluteNoise = 0.2202f;
 
+/// What is bent by `strength` times fractal_noise() is blurred by bends that a footprint of that width hides:
+/// the square of the width of the box that blurs as much.
+inline float blur_of_lost_bends(float strength, float width) {
+  constexpr float kVariance = 0.05F;  // of the noise
+  const float lost = strength * (1 - detail_left(width));
+  return 12 * kVariance * lost * lost;
+}
+
 }  // namespace raytracer

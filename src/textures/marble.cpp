@@ -42,9 +42,8 @@ class Marble final : public Pattern {
 
   // Of the footprint across the veins, and of the bends that are lost in it.
   [[gnu::always_inline]] static float vein_width(const Vector3f& dx, const Vector3f& dy, float turbulence) {
-    constexpr float kVariance = 0.05F;  // of the noise
-    const float lost = turbulence * (1 - detail_left(PatternPoint::longer_of(dx, dy)));
-    return std::sqrt(dx.x * dx.x + dy.x * dy.x + 12 * kVariance * lost * lost);
+    const float blur = blur_of_lost_bends(turbulence, PatternPoint::longer_of(dx, dy));
+    return std::sqrt(dx.x * dx.x + dy.x * dy.x + blur);
   }
 
   static float vein(float x, float width, float sharpness, float mean) {

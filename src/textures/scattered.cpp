@@ -10,19 +10,19 @@
 namespace raytracer {
 namespace {
 
-/// What has been found so far: distances squared as bits, whose order is theirs and which compilers compare
-/// without a thought of what is not a number.
+// What has been found so far: distances squared as bits, whose order is theirs and which compilers compare
+// without a thought of what is not a number.
 struct Found {
   std::uint32_t nearest = std::bit_cast<std::uint32_t>(kInfinity), second = nearest;
   std::uint32_t hash = 0;  // of the cell of the nearest
 };
 
-/// The coordinates of a cell's point follow from ten bits of its hash each.
-constexpr float kBitsOfPoint = 1024;
+// As many places along each axis may a cell's point have: ten bits of its hash tell which.
+constexpr float kPlaces = 1024;
 
 // From a place in a cell to the least coordinates that the cell's own point may have.
 Vector3f to_first_corner(const Vector3f& within, float jitter) {
-  return 0.5F + jitter * (0.5F / kBitsOfPoint - 0.5F) - within;
+  return 0.5F + jitter * (0.5F / kPlaces - 0.5F) - within;
 }
 
 // Looks at the point of one more cell, `aside` from the one that the place is in, of that hash. Without
@@ -69,7 +69,7 @@ void find_nearest(const Vector3Block& p, float jitter, NearestBlock& result) {
     nearest[lane] = second[lane] = Found{}.nearest;
     hash[lane] = 0;
   }
-  const float step = jitter / kBitsOfPoint;
+  const float step = jitter / kPlaces;
   for_neighbours<kIsFlat>([&](const glm::ivec3& aside) {
     for (int lane = 0; lane < kBlockSize; ++lane) {
       const Found found = with_cell<kIsFlat>({nearest[lane], second[lane], hash[lane]},
@@ -93,7 +93,7 @@ void find_nearest(const Vector3Block& p, float jitter, NearestBlock& result) {
 NearestPoints nearest_points(const Vector3f& p, float jitter, bool is_flat) {
   const glm::ivec3 cell = cell_of(p);
   const Vector3f corner = to_first_corner(p - Vector3f(cell), jitter);
-  const float step = jitter / kBitsOfPoint;
+  const float step = jitter / kPlaces;
   return with_constant<true, false>(is_flat, [&](auto flat) {
     Found found;
     for_neighbours<flat>([&](const glm::ivec3& aside) {

@@ -57,9 +57,8 @@ constexpr float kGain = 0.5F;
   const float x = glm::dot(dx, outwards), y = glm::dot(dy, outwards);
   const float all = dx.x * dx.x + dx.z * dx.z + dy.x * dy.x + dy.z * dy.z;
   const float curve = (all - x * x - y * y) / (8 * divisor);
-  constexpr float kVariance = 0.05F;  // of the noise
-  const float lost = turbulence * (1 - detail_left(width_by(dx, dy, kSlow)));
-  const float width = std::sqrt(x * x + y * y + curve * curve + 12 * kVariance * lost * lost);
+  const float blur = blur_of_lost_bends(turbulence, width_by(dx, dy, kSlow));
+  const float width = std::sqrt(x * x + y * y + curve * curve + blur);
   return distance > 0 ? width : PatternPoint::longer_of(dx, dy);
 }
 

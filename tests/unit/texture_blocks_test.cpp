@@ -115,6 +115,11 @@ void require_same(const Named& named, const TextureBlock& block) {
                     << alone.x << " " << alone.y << " " << alone.z << " alone, " << together.x << " "
                     << together.y << " " << together.z << " together");
     REQUIRE(are_same(alone, together));
+    if (named.texture->asks_uv()) continue;
+    TexturePoint elsewhere = block.at(i);
+    elsewhere.uv += Vector2f(0.37F, 0.61F);
+    elsewhere.uv_dx = elsewhere.uv_dy = Vector2f(0);
+    REQUIRE(are_same(alone, named.texture->at(elsewhere)));
   }
 }
 
@@ -158,6 +163,16 @@ std::shared_ptr<const Picture> random_picture(Random& random, TexelType type, in
 TEST_CASE("sixteen points of a pattern get what each gets alone", "[textures]") {
   require_same(patterns(PatternMap::kPosition, 1));
   require_same(patterns(PatternMap::kUv, 3));
+}
+
+TEST_CASE("textures say whether they ask for uv", "[textures]") {
+  for (const Named& solid : patterns(PatternMap::kPosition, 1)) CHECK_FALSE(solid.texture->asks_uv());
+  for (const Named& flat : patterns(PatternMap::kUv, 1)) {
+    CHECK(flat.texture->asks_uv());
+    PatternSetup around = setup(PatternMap::kPosition);
+    around.b = TextureInput(flat.texture);
+    CHECK(make_checker(std::move(around))->asks_uv());
+  }
 }
 
 TEST_CASE("patterns in patterns cost a block no more than its points", "[textures]") {
